@@ -16,7 +16,7 @@ from ..errors import input_error
 from ..jobs import worker
 from ..progress import Progress
 from .move import Move
-from .placing import Origin, moved
+from .placing import Origin
 
 Array = NDArray[np.float64]
 
@@ -66,7 +66,7 @@ def read(path: Path, job: str, progress: Progress, **options: Any) -> ForeignSce
 
 
 def _move(path: Path, camera: dict[str, Any], rate: float, matrix: Array) -> Move:
-    poses = moved(matrix, np.array(camera["matrix"], np.float64).reshape(-1, 4, 4))
+    poses: Array = matrix @ np.array(camera["matrix"], np.float64).reshape(-1, 4, 4)
     half = np.array(camera["half"], np.float64)
     rotation = poses[:, :3, :3]
     right, up = rotation[:, :, 0], rotation[:, :, 1]

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..ellipsoid import ecef, enu_axes
 from ..errors import input_error, reading
@@ -89,8 +89,3 @@ def scene_from(shot: Shot, origin: Origin, undulation: float) -> Array:
     above = undulation if shot.run.vertical == "orthometric" else 0.0
     scene = earth_matrix(frame.latitude, frame.longitude, frame.height + above)
     return np.linalg.inv(scene) @ earth_matrix(*origin)
-
-
-def moved(matrix: ArrayLike, poses: ArrayLike) -> Array:
-    """Transform poses (n, 4, 4), matrices for columns."""
-    return np.asarray(matrix) @ np.asarray(poses, np.float64)
