@@ -41,6 +41,12 @@ def add(
         help="observed perimeters and detections (RUN/observations)",
     )
     parser.add_argument(
+        "--ensemble",
+        metavar="DIR",
+        type=path,
+        help="ensemble of the forecast (none)",
+    )
+    parser.add_argument(
         "--limit",
         metavar="SIZE",
         type=size,

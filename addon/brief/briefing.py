@@ -23,10 +23,11 @@ from ..shot.terrain.elevation import Elevation
 from ..stations import reading
 from ..stations.records import Resource, Station
 from ..stations.station_file import StationFile
-from . import context, film, inputs, layers, reached
+from . import context, film, forecast, inputs, layers, reached
 from .arguments import LIMIT
 from .context import Context
 from .film import Film
+from .forecast import Forecast
 from .layers import Layer
 from .reached import Reached
 from .sheet_options import SheetOptions, Units
@@ -50,6 +51,8 @@ class Request:
         Names and files of map features (see `context`).
     sheet
         Choices for the printed sheets.
+    ensemble
+        Folder of an ensemble; None to omit it.
     """
 
     scene: Path
@@ -59,6 +62,7 @@ class Request:
     limit: int = LIMIT
     context: Sequence[tuple[str, Path]] = ()
     sheet: SheetOptions = field(default_factory=SheetOptions)
+    ensemble: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -112,6 +116,8 @@ class Briefing:
         Map features of the user, in the order of drawing.
     sheet
         Choices for the printed sheets.
+    forecast
+        Statistics of an ensemble; None without one.
     """
 
     run: Run
@@ -131,6 +137,7 @@ class Briefing:
     inputs: list[tuple[str, str]]
     context: list[Context]
     sheet: SheetOptions
+    forecast: Forecast | None = None
 
     @cached_property
     def moments(self) -> list[str]:
@@ -203,6 +210,7 @@ def gather(request: Request) -> Briefing:
     files = sorted({observations.dates.without(each)[0].name for each in named})
     lines, tolerance = fronts.find(run, clock)
     around = context.read(request.context)
+    points = _points(run, settings, station_file, clock, _arrival_error(scores), request.sheet.units)
     return Briefing(
         run=run,
         zone=clock,
@@ -211,7 +219,7 @@ def gather(request: Request) -> Briefing:
         layers=layers.draw(run, elevation.fuel, clock, request.sheet.units),
         fronts=lines,
         tolerance=tolerance,
-        points=_points(run, settings, station_file, clock, _arrival_error(scores), request.sheet.units),
+        points=points,
         station_file=station_file,
         film=shown,
         observed=[p for p in seen.perimeters if run.times[0] <= times.seconds(run, p.time) <= run.times[-1]],
@@ -225,7 +233,14 @@ def gather(request: Request) -> Briefing:
         ],
         context=around,
         sheet=request.sheet,
+        forecast=_forecast(request.ensemble, points),
     )
+
+
+def _forecast(folder: Path | None, points: Sequence[Point]) -> Forecast | None:
+    if folder is None:
+        return None
+    return forecast.gather(folder, [each.latitude for each in points], [each.longitude for each in points])
 
 
 def _hashes(run: Run) -> dict[str, str]:

@@ -34,6 +34,7 @@ def run(arguments: argparse.Namespace) -> None:
         arguments.limit,
         [context.parse(each) for each in arguments.context],
         sheet_options.of_arguments(arguments),
+        arguments.ensemble,
     )
     with notify_if_slow(READING):
         found = briefing.gather(request)

@@ -57,9 +57,9 @@ def svg(fronts: Sequence[Front], reported: Sequence[dict[str, Any]], zone: str, 
     line = " ".join(f"{place.x(front.utc)},{place.y(front.area)}" for front in fronts)
     foot = HEIGHT - BOTTOM
     parts = [
-        *_scale(place, left, LEFT - 8, "end", True),
-        *_scale(place, right, WIDTH - RIGHT + 8, "start", False),
-        *_dates(place, zone),
+        *scale(place, left, LEFT - 8, "end", True),
+        *scale(place, right, WIDTH - RIGHT + 8, "start", False),
+        *dates(place, zone),
         f'<polygon class="area" points="{LEFT},{foot} {line} {WIDTH - RIGHT},{foot}"/>',
         f'<polyline class="run" points="{line}"/>',
         f'<line id="cursor" class="cursor" x1="{LEFT}" x2="{LEFT}" y1="{TOP}" y2="{foot}"/>',
@@ -86,7 +86,7 @@ def _dot(place: Axes, row: dict[str, Any], zone: str, unit: Measure) -> str:
     return f'<circle class="reported" r="5" {spot}><title>{title}</title></circle>'
 
 
-def _scale(place: Axes, unit: Measure, x: float, anchor: str, lines: bool) -> Iterator[str]:
+def scale(place: Axes, unit: Measure, x: float, anchor: str, lines: bool) -> Iterator[str]:
     """Draw the ticks of an area axis."""
     high = place.high * unit.factor
     power = 10.0 ** np.floor(np.log10(high / 4.0))
@@ -99,7 +99,7 @@ def _scale(place: Axes, unit: Measure, x: float, anchor: str, lines: bool) -> It
     yield f'<text x="{x}" y="{TOP - 6}" text-anchor="{anchor}" class="unit {anchor}">{unit.name}</text>'
 
 
-def _dates(place: Axes, zone: str) -> Iterator[str]:
+def dates(place: Axes, zone: str) -> Iterator[str]:
     """Draw ticks at round local hours below the curve."""
     hours = (place.last - place.first).total_seconds() / 3600.0
     if hours < 2.0:

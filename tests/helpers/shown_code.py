@@ -18,6 +18,7 @@ RUN = (
     "brief.md",
     "tiles.md",
     "delivery.md",
+    "forecasts.md",
     "export.md",
     "farm.md",
     "pipelines.md",

@@ -129,6 +129,16 @@ def test_the_commands_on_the_briefing_page_run(folder):
     assert 'lang="en"' in Path("brief.html").read_text("utf-8")
 
 
+def test_the_commands_on_forecasts_run(folder, capsys):
+    ring = [[-120.7, 38.75], [-120.5, 38.75], [-120.5, 38.9], [-120.7, 38.9], [-120.7, 38.75]]
+    seen = {"type": "Feature", "properties": {"time": "2014-09-17T16:00:00Z"}}
+    seen["geometry"] = {"type": "Polygon", "coordinates": [ring]}
+    Path("perimeters.geojson").write_text(json.dumps(seen))
+    assert {words[0] for words in run_page("docs/forecasts.md")} >= {"sample", "info", "brief", "score"}
+    assert "20 of 20 members, issued 16 Sep 2014 21:45 PDT" in capsys.readouterr().out
+    assert "How sure the forecast is" in Path("page.html").read_text("utf-8")
+
+
 def test_the_commands_on_tiles_run(folder):
     assert run_page("docs/tiles.md")
     tileset = json.loads(Path("terrain_tiles/tileset.json").read_text())

@@ -36,7 +36,8 @@ class Choice:
 
 def choose(ensemble: Ensemble) -> Choice:
     """Choose members by their burned areas at the horizon; of equal ones, the first."""
-    area, depth = burned_areas(ensemble, [ensemble.horizon])[:, 0], depths(ensemble, ensemble.horizon)
+    area = burned_areas(ensemble, [ensemble.horizon])[:, 0]
+    depth = np.round(depths(ensemble, ensemble.horizon), 6)  # sums of areas are rounded
     return Choice(
         int(np.nanargmax(depth)), int(np.nanargmin(area)), int(np.nanargmax(area)), int(np.nanargmin(depth))
     )

@@ -1,0 +1,107 @@
+"""The section of a forecast: times by counts of members, places without fire, drawings, and escaped names."""
+
+from datetime import UTC, datetime
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+import small_stations
+import whole_run
+from firetwin.brief import briefing, forecast, forecast_chart, page
+from firetwin.errors import InputError
+from firetwin.run.ensemble import write
+from firetwin.run.ensemble.manifest import Manifest, Member
+from page_parts import PageParts
+
+ISSUED = datetime(2014, 9, 17, 4, 0, tzinfo=UTC)
+HOSTILE = '</script><b onload="x">'
+HOURS = 3600.0
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A run of 6 hours."""
+    path = tmp_path_factory.mktemp("forecast") / "run"
+    times = tuple(np.arange(0.0, 21601.0, 3600.0))
+    return whole_run.write(path, cell=60.0, cells=40, times=times, start="2014-09-17T04:00:00Z", speed=0.1)
+
+
+@pytest.fixture(scope="module")
+def stations(tmp_path_factory):
+    places = [("Alpha", 38.9, -120.6), ("Bravo", 38.902, -120.598)]
+    return small_stations.briefed(tmp_path_factory.mktemp("stations") / "stations.gpkg", places)
+
+
+def section(run, stations, made):
+    return forecast.section(briefing.gather(briefing.Request(run, stations, ensemble=made)))
+
+
+def members(folder, run, arrivals, **head):
+    """Write an ensemble on the run's fuel grid whose members arrive everywhere at one time (s) each."""
+    axes = [np.load(run / f"fuel_{name}.npy") for name in ("latitude", "longitude")]
+    shape = tuple(axis.size for axis in axes)
+    each = [(Member(f"{i:02}"), np.full(shape, time, np.float32)) for i, time in enumerate(arrivals)]
+    made = Manifest("Many", "made up", ISSUED, 6 * HOURS, (), **head)
+    write.write(folder / "ensemble", made, *axes, each)
+    return folder / "ensemble"
+
+
+def rows(text: str) -> list[list[str]]:
+    """Return the cells of the table's body as texts."""
+    start = text.index("<tbody>")
+    body = ElementTree.fromstring(text[start : text.index("</tbody>") + 8].replace("<br>", ""))
+    return [["".join(cell.itertext()) for cell in row] for row in body]
+
+
+def test_times_are_counts_of_members(folder, stations, tmp_path):
+    """20 members: 2 before the issue time, 8 by the second hour, 3 by the fifth, 7 not at all."""
+    arrivals = [-60.0] * 2 + [2 * HOURS] * 8 + [5 * HOURS] * 3 + [np.inf] * 7
+    made = members(tmp_path, folder, arrivals)
+    text = section(folder, stations, made)
+    assert "Issued 16 Sep 2014 20:00 -08, valid until 17 Sep 2014 02:00 -08, 20 of 20 members" in text
+    assert [cells[0] for cells in rows(text)] == ["Alpha", "Bravo"]
+    for cells in rows(text):
+        assert cells[1:5] == ["burned before", "by 16 Sep 22:00", "not within", "7 of 20"]
+    assert "2 of 20<br>burn it" in text
+
+
+def test_shares_of_many_members_are_percentages(folder, stations, tmp_path):
+    made = members(tmp_path, folder, [HOURS] * 60)
+    text = section(folder, stations, made)
+    assert "10% of members<br>burn it" in text
+    assert "of 20<br>" not in text
+
+
+def test_places_without_fire_are_named_once(folder, stations, tmp_path):
+    axes = [np.load(folder / f"fuel_{name}.npy") for name in ("latitude", "longitude")]
+    here = np.full((axes[0].size, axes[1].size), np.inf, np.float32)
+    here[0, 0] = 60.0
+    head = Manifest("Few", "", ISSUED, 6 * HOURS, ())
+    write.write(tmp_path / "e", head, *axes, [(Member("a"), here), (Member("b"), here)])
+    text = section(folder, stations, tmp_path / "e")
+    assert "<tbody>" not in text
+    assert text.count("Not within 6 h in any of 2 members: Alpha, Bravo.") == 1
+
+
+def test_the_page_escapes_the_names_of_an_ensemble(folder, tmp_path):
+    made = members(tmp_path, folder, [HOURS, np.inf], perturbed=HOSTILE, synthetic=True)
+    parts = PageParts(page.html(briefing.gather(briefing.Request(folder, ensemble=made)), 10_000_000))
+    assert parts
+    text = forecast.section(briefing.gather(briefing.Request(folder, ensemble=made)))
+    assert HOSTILE not in text
+    assert "SYNTHETIC" in text
+
+
+def test_other_kinds_are_refused(folder, tmp_path):
+    made = members(tmp_path, folder, [HOURS], kind="scenarios")
+    with pytest.raises(InputError, match="holds named cases, such as best and worst; the page needs"):
+        briefing.gather(briefing.Request(folder, ensemble=made))
+
+
+def test_dots_count_the_members_that_do_not_arrive():
+    drawn = ElementTree.fromstring(forecast_chart.dots(np.array([0.0, 60.0, np.inf, np.inf]), 120.0, "A & B"))
+    circles = [each for each in drawn if each.tag == "circle"]
+    assert len(circles) == 2
+    assert float(circles[0].get("cx")) < float(circles[1].get("cx"))
+    assert [each.text for each in drawn if each.tag == "text"] == ["+2"]
+    assert drawn.get("aria-label") == "A & B: 2 of 4 members arrive"
