@@ -161,7 +161,7 @@ def test_bad_members_leave_nothing(tmp_path, values, reason):
     ("text", "reason"),
     [
         ("name = ", r"toml: is not TOML: Invalid value"),
-        ("nmae = 'x'\n[[member]]\nname = 'a'", 'unknown key "nmae"'),
+        ("title = 'x'\n[[member]]\nname = 'a'", 'unknown key "title"'),
         ("name = 'a'\nx y", r"toml:2:3: is not TOML: Expected '='"),
         ("kind = 'best'\n[[member]]\nname = 'a'", 'kind is "best"; write one of forecast, scenarios'),
         ("", "has 0 members; list 1 to 10,000"),

@@ -117,7 +117,7 @@ def test_arrival_times_in_hours(describe, tmp_path):
         ({"projection": None}, "projection is missing"),
         ({"axes": '["time", "y", "x"]'}, "axes are not member, time, y, x in some order"),
         ({"variable": '"p"'}, 'has no array "p"; variable is one of prediction, other'),
-        ({"treshold": "1"}, 'has an unknown key "treshold"'),
+        ({"limit": "1"}, 'has an unknown key "limit"'),
     ],
 )
 def test_nothing_is_guessed(describe, tmp_path, changes, reason):
