@@ -10,7 +10,8 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..errors import Error, disk_is_full, full_disk_error
+from .. import files
+from ..errors import Error
 from ..run import areas, fronts, thumbnails, times
 from .overlays import nearest
 
@@ -126,19 +127,16 @@ def _write(rasterio: ModuleType, raster: Raster, path: Path, run: Run) -> Path:
     }
     note |= {"synthetic": "yes"} if run.synthetic else {}
     options = {"compress": "deflate", "predictor": "yes", "resampling": "nearest", "num_threads": "1"}
-    try:
-        with rasterio.MemoryFile() as memory:
-            with memory.open(**profile) as made:
-                for number, (name, band) in enumerate(zip(raster.bands, bands, strict=True), 1):
-                    made.write(band, number)
-                    made.set_band_description(number, name)
-                made.update_tags(**note)
-            with memory.open() as made:
-                rasterio.shutil.copy(made, path, driver="COG", **options)
-    except rasterio.errors.RasterioError as error:
-        if disk_is_full(error) or "write" in str(error).lower():
-            raise full_disk_error(path) from error
-        raise
+    with rasterio.MemoryFile() as memory, rasterio.MemoryFile(ext=".tif") as finished:
+        with memory.open(**profile) as made:
+            for number, (name, band) in enumerate(zip(raster.bands, bands, strict=True), 1):
+                made.write(band, number)
+                made.set_band_description(number, name)
+            made.update_tags(**note)
+        with memory.open() as made:
+            rasterio.shutil.copy(made, finished.name, driver="COG", **options)
+        data = finished.read()
+    files.write(path, lambda part: part.write_bytes(data))
     return path
 
 

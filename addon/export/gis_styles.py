@@ -187,7 +187,7 @@ def _labels(field: str) -> ET.Element:
     labeling = ET.Element("labeling", type="simple")
     settings = ET.SubElement(labeling, "settings")
     text = {"fieldName": field, "fontSize": "9", "fontSizeUnit": "Point", "textColor": "0,0,0,255"}
-    text |= {"textOpacity": "1", "fontFamily": "Sans"}
+    text |= {"textOpacity": "1", "fontFamily": "Sans", "fontWeight": "75"}
     style = ET.SubElement(settings, "text-style", text)
     buffer = {"bufferDraw": "1", "bufferSize": "0.8", "bufferSizeUnits": "MM", "bufferOpacity": "1"}
     ET.SubElement(style, "text-buffer", buffer | {"bufferColor": "255,255,255,255"})
