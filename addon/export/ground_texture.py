@@ -19,6 +19,7 @@ LARGEST = 2048  # pixels, longest side
 _BARE, _GRASS, _FOREST = (0.120, 0.110, 0.100), (0.080, 0.070, 0.045), (0.030, 0.040, 0.018)
 _WATER, _CHAR, _ASH = (0.020, 0.045, 0.070), (0.020, 0.019, 0.018), (0.048, 0.046, 0.043)
 _DENSE, _VARIED = 0.7, 0.25  # kg/m2 of canopy fuel that hides grass; range of the variation between cells
+_STEPS = 4.0  # steps of the variation: few values make small files
 _PHOTO, _SHOULDER = 0.5, 0.8  # reflectances of a photograph, as in `scene.terrain.material`
 
 
@@ -61,7 +62,7 @@ def _decode(srgb: NDArray) -> NDArray[np.float64]:
 def _varied(row: NDArray[np.float64], column: NDArray[np.float64], seed: int) -> NDArray[np.float64]:
     """Return factors (n, 1) near 1 that differ between cells."""
     lot = noise.uniform(np.rint(row).astype(np.int64), np.rint(column).astype(np.int64), seed)
-    return 1.0 + _VARIED * (lot[:, None] - 0.5)
+    return 1.0 + _VARIED * (np.floor(_STEPS * lot[:, None]) / (_STEPS - 1.0) - 0.5)
 
 
 def _unburned(shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -84,6 +85,7 @@ def _burned(shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64]) -
     part = noise.uniform(
         np.rint(row).astype(np.int64), np.rint(column).astype(np.int64), shot.settings.seed + 951
     )[:, None]
+    part = np.floor(_STEPS * part) / (_STEPS - 1.0)
     return np.asarray(np.array(_CHAR) + part * (np.array(_ASH) - _CHAR), np.float64)
 
 

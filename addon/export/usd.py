@@ -18,6 +18,8 @@ from .scene_content import SceneContent
 from .scene_job import SceneExport
 
 NAME = "scene.usda"
+PICTURES = 5
+"""Number of pictures of the ground, at most."""
 HAS_VOLUMES = True
 """True: the smoke is part of this format."""
 
@@ -46,7 +48,7 @@ def write_content(content: SceneContent, export: SceneExport) -> list[Path]:
     out, layers = export.folder, list[Path]()
     if content.terrain is not None:
         times = dict(zip(content.frames.tolist(), content.times.tolist(), strict=True))
-        frames = usd_forest.burning_frames(content)
+        frames = usd_forest.burning_frames(content, PICTURES)
         pictures = ground_texture.paint(export.shot, np.array([times[frame] for frame in frames]))
         layers.append(usd_terrain.write(content, out, dict(zip(frames, pictures, strict=True))))
     if content.plants:

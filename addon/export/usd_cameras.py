@@ -19,8 +19,8 @@ _PANORAMA = 36.0, 18.0  # mm, sensor and lens of 90 degrees for a panorama, whic
 
 
 def write(content: SceneContent, out: Path) -> Path:
-    """Write `cameras.usda`; return the layer."""
-    path = out / "cameras.usda"
+    """Write `cameras.usdc`; return the layer."""
+    path = out / "cameras.usdc"
     span = int(content.frames[0]), int(content.frames[-1])
     stage = new_stage(path, content.rate, span)
     set_kind(stage.GetDefaultPrim(), "assembly")

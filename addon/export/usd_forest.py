@@ -18,8 +18,11 @@ from .usd_geometry import define_mesh, extent, half_quaternions, set_indexed, ve
 from .usd_library import new_stage, set_kind
 
 FOLDER = "prototypes"
-MOMENTS = 5
-"""Number of frames, at most, at which burned plants change their prototype."""
+_BURNING = "/World/Forest/Looks/Burning"
+MOMENTS = 9
+"""Number of frames, at most, at which plants catch fire or become bare."""
+FLAME, RADIANCE = (1.0, 0.16, 0.012), 0.9
+"""Colour (linear) and radiance of crowns in flames, in the scene's units (by eye)."""
 
 
 def write(content: SceneContent, out: Path) -> Path:
@@ -34,16 +37,18 @@ def write(content: SceneContent, out: Path) -> Path:
     set_kind(stage.GetDefaultPrim(), "assembly")
     set_kind(UsdGeom.Xform.Define(stage, "/World/Forest").GetPrim(), "group")
     frames = burning_frames(content)
+    UsdGeom.Scope.Define(stage, "/World/Forest/Looks")
+    usd_materials.of_colour(stage, _BURNING, FLAME, RADIANCE)
     for plants in content.plants:
         _define_plants(stage, plants, content, frames)
     stage.GetRootLayer().Save()
     return path
 
 
-def burning_frames(content: SceneContent) -> list[int]:
-    """Choose the frames at which burned plants change: evenly spread, the first and the last included."""
+def burning_frames(content: SceneContent, most: int = MOMENTS) -> list[int]:
+    """Choose the frames at which burned land changes: evenly spread, the first and the last included."""
     count = len(content.frames)
-    chosen = np.unique(np.linspace(0, count - 1, min(count, MOMENTS)).round().astype(int))
+    chosen = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
     return [int(frame) for frame in content.frames[chosen]]
 
 
@@ -54,17 +59,29 @@ def _define_plants(stage: Any, plants: Plants, content: SceneContent, frames: li
     used, first = np.unique(np.concatenate([plants.prototype, plants.burned_prototype]), return_inverse=True)
     living, burned = np.split(first, 2)
     targets = [_refer_to(stage, path, content.prototypes[k]) for k in used]
+    times = dict(zip(content.frames.tolist(), content.times.tolist(), strict=True))
+    alight = {frame: plants.in_flames(times[frame]) for frame in frames}
+    flaming = np.unique(living[np.any(list(alight.values()), axis=0)])
+    targets += [_refer_to(stage, path, content.prototypes[used[k]], burning=True) for k in flaming]
+    number = np.zeros(len(used), np.int64)
+    number[flaming] = len(used) + np.arange(len(flaming))
     instancer.CreatePrototypesRel().SetTargets(targets)
     instancer.CreatePositionsAttr(vectors(plants.position))
     instancer.CreateOrientationsAttr(half_quaternions(plants.rotation))
     instancer.CreateScalesAttr(vectors(plants.scale))
     if plants.ids is not None:
         instancer.CreateIdsAttr(Vt.Int64Array.FromNumpy(np.ascontiguousarray(plants.ids, np.int64)))
-    _set_prototypes(instancer, plants, content, frames, living, burned)
-    classes, number = np.unique([content.prototypes[k].kind for k in used], return_inverse=True)
+    states = {
+        frame: np.where(
+            plants.burned_from <= times[frame], burned, np.where(alight[frame], number[living], living)
+        )
+        for frame in frames
+    }
+    _set_prototypes(instancer, states)
+    classes, kind = np.unique([content.prototypes[k].kind for k in used], return_inverse=True)
     primvars = UsdGeom.PrimvarsAPI(instancer)
     kinds = primvars.CreatePrimvar("class", Sdf.ValueTypeNames.StringArray, "vertex")
-    set_indexed(kinds, Vt.StringArray(classes.tolist()), number[living])
+    set_indexed(kinds, Vt.StringArray(classes.tolist()), kind[living])
     for name, values in (
         ("height", plants.height),
         ("arrival", plants.arrival),
@@ -77,36 +94,32 @@ def _define_plants(stage: Any, plants: Plants, content: SceneContent, frames: li
     instancer.CreateExtentAttr(extent(plants.position, reach * plants.scale.max(axis=1, keepdims=True)))
 
 
-def _set_prototypes(
-    instancer: Any,
-    plants: Plants,
-    content: SceneContent,
-    frames: list[int],
-    living: np.ndarray,
-    burned: np.ndarray,
-) -> None:
-    """Set the prototype of each plant at some frames, and only where one changes."""
+def _set_prototypes(instancer: Any, states: dict[int, np.ndarray]) -> None:
+    """Set the prototype of each plant (n,) by frame, and only where one changes."""
     attribute = instancer.CreateProtoIndicesAttr()
-    times = dict(zip(content.frames.tolist(), content.times.tolist(), strict=True))
-    states = [np.where(plants.burned_from <= times[frame], burned, living) for frame in frames]
-    attribute.Set(Vt.IntArray.FromNumpy(states[0].astype(np.int32)))
-    if all(np.array_equal(states[0], state) for state in states):
+    first, *later = states.values()
+    attribute.Set(Vt.IntArray.FromNumpy(first.astype(np.int32)))
+    if all(np.array_equal(first, state) for state in later):
         return
     last = None
-    for frame, state in zip(frames, states, strict=True):
+    for frame, state in states.items():
         if last is None or not np.array_equal(last, state):
             attribute.Set(Vt.IntArray.FromNumpy(state.astype(np.int32)), frame)
         last = state
 
 
-def _refer_to(stage: Any, path: str, prototype: Prototype) -> Any:
-    """Refer to the layer of a prototype below the instancer, and return its path."""
+def _refer_to(stage: Any, path: str, prototype: Prototype, burning: bool = False) -> Any:
+    """Refer to the layer of a prototype below the instancer, and return its path; `burning`: in flames."""
     parent = f"{path}/Prototypes"
     if not stage.GetPrimAtPath(parent):
         UsdGeom.Scope.Define(stage, parent)
-    prim = stage.DefinePrim(f"{parent}/{prototype.name}")
+    prim = stage.DefinePrim(f"{parent}/{prototype.name}{'_burning' if burning else ''}")
     prim.GetReferences().AddReference(f"./{FOLDER}/{prototype.name}.usdc")
     set_kind(prim, "subcomponent")
+    if burning:
+        UsdShade.MaterialBindingAPI.Apply(prim).Bind(
+            UsdShade.Material.Get(stage, _BURNING), UsdShade.Tokens.strongerThanDescendants
+        )
     return prim.GetPath()
 
 

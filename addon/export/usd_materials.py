@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pxr import Sdf, UsdShade
+from pxr import Gf, Sdf, UsdShade
 
 ROUGHNESS = 0.9
 """Roughness of all surfaces: Firetwin's are diffuse."""
@@ -24,6 +24,19 @@ def from_primvar(stage: Any, path: str, name: str = "displayColor") -> Any:
     _standard(stage, material, path).CreateInput("base_color", Sdf.ValueTypeNames.Color3f).ConnectToSource(
         named.CreateOutput("out", Sdf.ValueTypeNames.Color3f)
     )
+    return material
+
+
+def of_colour(stage: Any, path: str, colour: tuple[float, float, float], radiance: float) -> Any:
+    """Define a material that emits a linear colour with a radiance, and reflects nothing."""
+    material = UsdShade.Material.Define(stage, path)
+    preview, standard = _preview(stage, material, path), _standard(stage, material, path)
+    light = Gf.Vec3f(*(radiance * part for part in colour))
+    preview.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(0.0))
+    preview.CreateInput("emissiveColor", Sdf.ValueTypeNames.Color3f).Set(light)
+    standard.CreateInput("base", Sdf.ValueTypeNames.Float).Set(0.0)
+    standard.CreateInput("emission", Sdf.ValueTypeNames.Float).Set(radiance)
+    standard.CreateInput("emission_color", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*colour))
     return material
 
 

@@ -57,10 +57,10 @@ class Grid:
 
 
 def write(content: SceneContent, out: Path, shot: Shot) -> Path:
-    """Copy the volumes to `smoke/` and write `smoke.usda`; return the layer."""
+    """Copy the volumes to `smoke/` and write `smoke.usdc`; return the layer."""
     folder = out / FOLDER
     folder.mkdir(exist_ok=True)
-    path = out / "smoke.usda"
+    path = out / "smoke.usdc"
     stage = new_stage(path, content.rate, (int(content.frames[0]), int(content.frames[-1])))
     set_kind(stage.GetDefaultPrim(), "assembly")
     set_kind(UsdGeom.Xform.Define(stage, "/World/Smoke").GetPrim(), "component")

@@ -117,7 +117,7 @@ def test_a_tree_is_where_blender_instances_it_with_its_number_in_the_masks(expor
     assert stage.GetDefaultPrim().GetPath() == "/World"
 
 
-def test_burned_trees_turn_into_snags_at_a_few_frames(exported):
+def test_crowns_burn_and_then_turn_into_snags_at_a_few_frames(exported):
     content, _, out, _ = exported
     _stage, prim = find(out, "/World/Forest/Trees")
     trees = UsdGeom.PointInstancer(prim)
@@ -128,6 +128,10 @@ def test_burned_trees_turn_into_snags_at_a_few_frames(exported):
         snags = np.array(["snag" in names[k] for k in trees.GetProtoIndicesAttr().Get(frame)])
         burned = plants.arrival + 300.0 <= time
         np.testing.assert_array_equal(snags, burned & (plants.torched > 0.0))
+        alight = [names[k].endswith("_burning") for k in trees.GetProtoIndicesAttr().Get(frame)]
+        recent = (plants.arrival <= time) & (time < plants.arrival + 300.0)
+        np.testing.assert_array_equal(alight, recent & (plants.torched > 0.0))
+        assert frame == 3 or any(alight)
     assert snags.any()
     kinds = UsdGeom.PrimvarsAPI(prim).GetPrimvar("class").ComputeFlattened()
     assert set(kinds) <= {"large", "medium", "small"}
