@@ -183,15 +183,15 @@ AgX is Blender's view transform: it maps scene-linear radiance to the colours of
 highlights as film does. The PNG and the films of `rgb` are AgX pictures with lens bloom. The EXR has neither,
 so that compositors grade the radiance itself. `[render] exr_space = "acescg"` writes it in ACEScg.
 
-`fused`, `split` and `difference` need matplotlib. `imager_short` (MWIR) and `imager_long` (LWIR) are ABI
-bands 7 and 14 (3.9 and 11.2 µm) for a geostationary satellite, otherwise VIIRS bands I4 and I5 (3.74 and
-11.45 µm). They are simulated: ABI was not yet in orbit in September 2014. VIIRS was, but its observations
-are not used here. `pose` with `rgb` also writes an index for nerfstudio, `CAMERA/transforms.json`,
-and one of all cameras, `transforms.json`. With `nerfstudio`, which needs no other pass in the list, the index
-also has `depth_file_path` and `mask_path`, if every frame of the index has these files.
-`thermal_map` and `edl` follow the FIRETWIN paper. `normal` and `masks` need an additional render with one
-ray per pixel. The `[thermal]` section sets the band (long-wave infrared, LWIR, 8 to 14 µm, or mid-wave
-infrared, MWIR, 3.4 to 4.1 µm), the palette and the flaws of the detector.
+`fused`, `split`, `difference` and `forecast` need matplotlib. `imager_short` (MWIR) and `imager_long`
+(LWIR) are ABI bands 7 and 14 (3.9 and 11.2 µm) for a geostationary satellite, otherwise VIIRS bands I4 and
+I5 (3.74 and 11.45 µm). They are simulated: ABI was not yet in orbit in September 2014. VIIRS was, but its
+observations are not used here. `pose` with `rgb` also writes an index for nerfstudio,
+`CAMERA/transforms.json`, and one of all cameras, `transforms.json`. With `nerfstudio`, which needs no other
+pass in the list, the index also has `depth_file_path` and `mask_path`, if every frame of the index has
+these files. `thermal_map` and `edl` follow the FIRETWIN paper. `normal` and `masks` need an additional
+render with one ray per pixel. The `[thermal]` section sets the band (long-wave infrared, LWIR, 8 to 14 µm,
+or mid-wave infrared, MWIR, 3.4 to 4.1 µm), the palette and the flaws of the detector.
 
 Each built scene has compositor groups with the results of these passes, within 1e-5: *Firetwin Thermal
 Blend*, *Thermal Camera*, *Eye Dome* and *Overlay*. *Firetwin Regrade* grades the

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 _DPI = 100.0
 _EMPTY = 0.07  # grey level of a quarter without a picture
 _EDGE = "#000000c0"
+HATCHED = "hatched"
 Key = tuple[str, str]
-"""Legend entry: a colour and its meaning."""
+"""Legend entry: a colour and its meaning; `HATCHED` in place of a colour; "" for a heading."""
 
 
 def sheet(
@@ -35,11 +36,11 @@ def sheet(
     for (left, top), listed in zip(corners, keys, strict=True):
         for number, (colour, text) in enumerate(listed):
             at = top + (2.5 + 5.2 * number) * large
-            box = (left + 2.0 * unit) / width, 1.0 - (at + 3.0 * large) / height
-            shape = Rectangle(box, 3.0 * large / width, 3.0 * large / height, transform=figure.transFigure)
-            shape.set(facecolor=colour, edgecolor=_EDGE, linewidth=0.1 * unit)
-            figure.add_artist(shape)
-            _text(figure, left + 2.0 * unit + 4.4 * large, at + 1.5 * large, text, 3.4 * large)
+            if colour:
+                box = left + 2.0 * unit, at, 3.0 * large
+                _swatch(figure, colour, box, unit)
+            indent = 4.4 * large if colour else 0.0
+            _text(figure, left + 2.0 * unit + indent, at + 1.5 * large, text, 3.4 * large)
     for number, line in enumerate(reversed(foot)):
         _text(figure, 2.0 * unit, height - below - (3.2 + 4.6 * number) * unit, line, 3.0 * unit)
     canvas.draw()
@@ -66,6 +67,19 @@ def _arranged(pictures: list[NDArray]) -> tuple[NDArray, list[tuple[int, int]]]:
     sheet[:, across] = 1.0
     sheet[height // 2 - line // 2 - line % 2 : height // 2 + line // 2] = 1.0
     return sheet, corners
+
+
+def _swatch(figure: Figure, colour: str, box: tuple[float, float, float], unit: float) -> None:
+    """Draw the square of a legend entry: left and top side, and its size, pixels."""
+    left, top, size = box
+    width, height = figure.get_size_inches() * _DPI
+    corner = left / width, 1.0 - (top + size) / height
+    shape = Rectangle(corner, size / width, size / height, transform=figure.transFigure)
+    if colour == HATCHED:
+        shape.set(facecolor="#00000060", edgecolor="white", hatch="////", linewidth=0.1 * unit)
+    else:
+        shape.set(facecolor=colour, edgecolor=_EDGE, linewidth=0.1 * unit)
+    figure.add_artist(shape)
 
 
 def _text(figure: Figure, x: float, y: float, text: str, size: float) -> None:

@@ -95,7 +95,7 @@ def check_marched(shot: Shot, wanted: list[Picture]) -> None:
     Error
         It is not.
     """
-    marched = (each.name for each in wanted if isinstance(passes.known()[each.name], passes.MarchedPass))
+    marched = (each.name for each in wanted if passes.is_marched(passes.known()[each.name]))
     name = next(marched, None)
     if name is not None and not sources.is_integrated(shot):
         raise Error(

@@ -6,7 +6,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..run import areas, times
-from . import frames
+from . import forecast, frames
 from .schema import scene_text
 from .settings import Settings
 from .stations import labels, station_signs
@@ -31,6 +31,7 @@ def check(settings: Settings, run: Run) -> None:
     land_use.check(settings, run)
     globe_picture.check(settings)
     observed.check(settings)
+    forecast.check(settings, run)
     labels.check(settings, run)
     station_signs.check(settings, run)
     for index, camera in enumerate(settings.cameras):

@@ -324,6 +324,7 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     )
     labels = dataclasses.replace(back.labels, **moved(back.labels, folder, "file"))
     fire = dataclasses.replace(back.fire, **moved(back.fire, folder, "observed"))
+    forecast = dataclasses.replace(back.forecast, **moved(back.forecast, folder, "ensemble"))
     stations = dataclasses.replace(
         back.stations, **moved(back.stations, folder, "file", "footprints", "routes_file")
     )
@@ -340,6 +341,7 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
         runs=runs,
         terrain=terrain,
         labels=labels,
+        forecast=forecast,
         stations=stations,
         fire=fire,
         cameras=cameras,

@@ -221,6 +221,11 @@ def is_rendered(each: Pass) -> bool:
     return isinstance(each, RenderedPass | MarchedPass)
 
 
+def is_marched(each: Pass) -> bool:
+    """Return True if the integrated renderer makes a pass, or a pass that it is made from."""
+    return any(isinstance(part, MarchedPass) for part in (each, *(known()[name] for name in each.made_from)))
+
+
 def compares(name: str) -> bool:
     """Return True if a pass compares runs."""
     return isinstance(known()[name], ComparisonPass)
@@ -235,7 +240,9 @@ def refused(each: Pass, camera: CameraSettings, settings: Any) -> str:
         return (
             f"{cannot} with EEVEE, whose pixels have 11 bits, too few for tree numbers; render it with Cycles"
         )
-    if isinstance(each, MarchedPass):
+    if "forecast" in each.aspects and settings.forecast.ensemble is None:
+        return f"{cannot} without an ensemble; name its folder as forecast.ensemble"
+    if is_marched(each):
         if eevee:
             return f"{cannot} with EEVEE, which renders smoke and surfaces together; render it with Cycles"
         if changed := _unmarched(settings.smoke):

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from ..schema import key
 from .fire import FireSettings
+from .forecast import ForecastSettings
 from .forest import Forest
 from .light import Light
 from .smoke import SmokeSettings
@@ -50,6 +51,9 @@ class SceneSettings:
     tiles: TileSettings = key(default_factory=TileSettings, help="3D Tiles as ground")
     forest: Forest = key(default_factory=Forest, help="trees and grass")
     fire: FireSettings = key(default_factory=FireSettings, help="flames, firebrands and glowing ash")
+    forecast: ForecastSettings = key(
+        default_factory=ForecastSettings, help="other members of the forecast, in the forecast pass"
+    )
     smoke: SmokeSettings = key(default_factory=SmokeSettings, help="the smoke volume")
     light: Light = key(default_factory=Light, help="haze, exposure and the light of the flames")
     labels: LabelSettings = key(
