@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import UsageError
+from ..jobs.tiles import selection
 from ..jobs.worker import Stop
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot.schema.frame_list import FrameList
@@ -14,6 +15,8 @@ from . import formats, georeference
 from .georeference import Georeference
 from .request import ExportRequest
 from .staging import staging
+
+_HEIGHTS = ("export", 'firetwin export with terrain.height_source = "tiles"')
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,11 @@ def run(
     ------
     UsageError
         The list of frames is invalid.
+    InputError
+        The terms of tiles that give the heights of cameras do not allow exports.
     """
+    if source.settings().terrain.height_source == "tiles":
+        selection.prepare(source, (), progress, tell, stop, uses=[_HEIGHTS])
     shot = source.shot()
     try:
         frames = FrameList(options.frames).frames(shot.frames.count)

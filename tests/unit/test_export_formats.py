@@ -282,6 +282,22 @@ def test_the_command_lists_its_files(name, scene, tmp_path, capsys):
     assert "--frames" in capsys.readouterr().err
 
 
+def test_heights_of_tiles_are_refused_by_the_name_of_their_terms(scene, tmp_path, capsys):
+    """Cameras are placed above the ground, which is of the tiles; nothing is requested from the server."""
+    text = SCENE.replace("near_radius = 0.0", 'near_radius = 0.0\nheight_source = "tiles"')
+    source = 'vegetation = "tileset"\nsources = ["https://tile.googleapis.com/v1/3dtiles/root.json"]\n'
+    text = text.replace("geoid = -24.9\n", "geoid = -24.9\n" + source).replace(
+        "enabled = true", "enabled = false"
+    )
+    scene.write_text(text)
+    out = tmp_path / "out"
+    assert cli.main(["export", str(scene), "--to", "kmz", "--out", str(out)]) == 1
+    said = capsys.readouterr().err
+    assert "Google" in said
+    assert "does not allow" in said
+    assert not out.exists()
+
+
 def test_without_a_geoid_the_command_says_so_loudly(scene, tmp_path, capsys, monkeypatch):
     scene.write_text(SCENE.replace("geoid = -24.9", ""))
     monkeypatch.setattr(georeference.geoid, "find", lambda: None)
