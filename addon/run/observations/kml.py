@@ -91,12 +91,16 @@ def _points(path: Path, place: str, placemark: ElementTree.Element) -> Ring:
 
 
 def _time(element: ElementTree.Element) -> dict[str, str]:
-    """Return `when` of a TimeStamp, or the end of a TimeSpan, when all has burned, otherwise its begin."""
+    """Return `when` of a TimeStamp, or the end of a TimeSpan, when all has burned, otherwise its begin.
+
+    The begin is also `begin`.
+    """
     for child in element:
         if _tag(child) in ("TimeStamp", "TimeSpan"):
             times = {_tag(each): (each.text or "").strip() for each in child}
             text = times.get("when") or times.get("end") or times.get("begin")
-            return {"when": text} if text else {}
+            begin = {"begin": times["begin"]} if times.get("begin") else {}
+            return ({"when": text} if text else {}) | begin
     return {}
 
 

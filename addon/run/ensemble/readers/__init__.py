@@ -14,7 +14,7 @@ from ...models.model import Options
 from .. import probability_maps
 from ..member_set import MemberSet
 
-READERS = ("samples", "cell2fire", "elmfire", "wrf_sets", "folders")
+READERS = ("samples", "cell2fire", "elmfire", "wrf_sets", "wise", "folders")
 """Modules, in the order in which they are tried."""
 
 
