@@ -28,6 +28,7 @@ NAME = "scene.kmz"
 _START = 3.0  # s, flight to the first frame of a tour
 _DIGITS = 9  # of degrees, 0.1 mm
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)  # of all members, so that equal content is an equal file
+_MODE = 0o100644 << 16  # a file that its owner may write and all may read
 _COLOURS = {places.STATION: "#000000", places.LABEL: "#000000", places.IGNITION: map_symbols.FIRE_EDGE}
 
 Array = NDArray[np.float64]
@@ -46,7 +47,7 @@ def write(request: ExportRequest) -> list[Path]:
         with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
             for name, data in members.items():
                 info = zipfile.ZipInfo(name, _ZIP_TIME)
-                info.compress_type = zipfile.ZIP_DEFLATED
+                info.compress_type, info.external_attr = zipfile.ZIP_DEFLATED, _MODE
                 archive.writestr(info, data)
 
     path = request.folder / NAME

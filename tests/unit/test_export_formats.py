@@ -14,6 +14,7 @@ from firetwin.run.front import reach
 from firetwin.shot.source import ShotSource
 from PIL import Image
 from pyproj import Geod, Transformer
+from scipy.interpolate import RegularGridInterpolator
 from small_run import RUN_TOML
 
 HOSTILE = """A "quoted" <name> & 'more' 🔥"""
@@ -203,7 +204,13 @@ def test_fronts_are_on_the_contour_of_the_arrival_times_in_both_formats(request_
         for ring in marks[-1].iterfind(f".//{KML}coordinates")
     ]
     assert sum(map(len, rings)) == sum(map(len, front.lines)) > 6
+    run = request.shot.run
+    axes = run.fuel_latitude, run.fuel_longitude
+    arrival = RegularGridInterpolator(axes, run.fuel_arrival_time(), bounds_error=False)
     for ring in rings:
+        late = arrival(ring[:, ::-1]) - front.time  # 30 s in 170 m: 1 cm is 0.0018 s
+        assert np.isfinite(late).sum() >= 4  # others are at the border of the grid
+        assert np.nanmax(np.abs(late)) < 0.0018
         for side in (0.98, 1.02):  # burned inside, not outside
             about = ring.mean(axis=0) + side * (ring - ring.mean(axis=0))
             assert np.mean(fire.burned(about[:, 1], about[:, 0], front.time) == (side < 1)) > 0.6
