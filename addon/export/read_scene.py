@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blender import compat
+from ..blender import compat, owned
 from ..blender.owned import Stage
 from ..scene.forest import biomes, models
 from ..scene.forest.levels import LEVELS
@@ -67,7 +67,7 @@ def read(shot: Shot, stage: Stage, frames: Sequence[int], smoke: Sequence[SmokeL
 
 def _find(stage: Stage, part: str, name: str) -> bpy.types.Object | None:
     """Find the rendered object that a part was built with, also if an artist renamed it."""
-    named = [obj for obj in stage.objects_of(part) if obj.get("firetwin_name") == f"Firetwin {name}"]
+    named = [obj for obj in stage.objects_of(part) if obj.get(owned.NAME) == f"{owned.ROOT} {name}"]
     return named[0] if named else None
 
 

@@ -106,7 +106,7 @@ def test_a_tree_is_where_blender_instances_it_with_its_number_in_the_masks(expor
     trees = UsdGeom.PointInstancer(prim)
     made = np.array([np.array(each).T for each in trees.ComputeInstanceTransformsAtTime(1.0, 1.0)])
     assert made.shape == drawn.shape
-    # Prototypes have no transform of their own. Half quaternions turn a model by up to a thousandth.
+    # Prototypes have no transform. Half quaternions turn a model by up to a thousandth.
     np.testing.assert_allclose(made[:, :3, :3], drawn[:, :3, :3], atol=0.03)
     apart = place.ecef(made[:, :3, 3]) - place.ecef(drawn[:, :3, 3])
     assert np.linalg.norm(apart, axis=1).max() < WITHIN

@@ -1,4 +1,4 @@
-"""Pictures of exports: a flame that is black where it is transparent, and sRGB."""
+"""Pictures of exports: a flame without colour in its transparent parts, and sRGB."""
 
 import numpy as np
 from firetwin.export import flame_picture
