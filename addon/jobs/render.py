@@ -323,7 +323,7 @@ def _camera(
             stage = worker_scene.build_scene(part, progress, tell) if drawn else worker_scene.empty()
             if drawn and shot.settings.render.engine == "cycles":
                 devices.use(gpus, stage.scene)
-            load = expected.load(shot, stage, hazy) if drawn else None
+            load = expected.load(shot, stage, hazy, {name for _, name in drawn}) if drawn else None
             if load and load.bytes > most:
                 most = load.bytes
                 tell(expected.describe(load))

@@ -20,7 +20,8 @@ def test_what_is_drawn_is_counted(shot, built):
     assert len(trees.data.vertices) > 100
     assert found.plants == len(grass.data.vertices) + len(trees.data.vertices), "not trees of the viewport"
     assert found.faces >= len(built.objects_of("Terrain")[0].data.polygons)
-    assert (found.cells, found.voxels) == (0, 0)
+    assert (found.cells, found.voxels, found.layered) == (0, 0, 0)
+    assert memory_estimate.load(shot, built, names=("rgb", "comp")) == replace(found, layered=64 * 36)
 
 
 def test_what_is_hidden_is_not_counted(shot, built):
@@ -55,7 +56,7 @@ def test_nothing_is_said_of_smoke_that_cycles_holds(settings, run, built, smoke)
 
 @pytest.mark.parametrize(
     ("what", "each"),
-    [("pixels", 790), ("plants", 2550), ("faces", 255), ("cells", 0), ("voxels", 7)],
+    [("pixels", 790), ("layered", 200), ("plants", 2550), ("faces", 255), ("cells", 0), ("voxels", 7)],
 )
 def test_each_of_it_adds_to_the_memory(what, each):
     some = memory_estimate.Load(
