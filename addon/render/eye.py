@@ -28,8 +28,11 @@ Array = NDArray[np.float32]
 _STEP = 0.5  # voxels, step of the ray march
 _SPARSE, _HIDES = 16, 3.0  # pixels between rays; optical depth that transmits 5 % of light
 _FARTHEST, _NEAREST, _TAPS = 2.0e4, 1.0e-3, 48  # m; nearest distance over the surface's; distances of masks
+_THIN = 0.9  # transmittance of flames below which more detail may show that they are opaque
 _WHITE = 1.2  # radiance times 2^exposure above which lenses spread light visibly (by eye)
 _PLACES = ((0.25, 0.25), (0.75, 0.75))  # positions of the marched rays in a pixel, which are averaged
+_MIDDLE = ((0.5, 0.5),)
+"""The same for pixels without flames in the infrared, where smoke is smooth and nearly transparent."""
 _FINER_PLACES = tuple(((n + 0.5) / 8.0, (n * 3 % 8 + 0.5) / 8.0) for n in range(8))
 """The same for pixels with flames in the infrared, where flames are a hundred times brighter than ground."""
 _HOT = 350.0  # K, hotter surfaces are burned ground or flames: no sunlit ground is
@@ -45,8 +48,9 @@ class Eye:
         -1 for the left and 1 for the right eye of a stereo camera, or 0.
     smoke
         Smoke volumes of the frame.
-    flames
-        Flames of the frame that are drawn as a volume; None if there are none.
+    flames, outline
+        Flames of the frame that are drawn as a volume, and the same with less detail, to find the pixels that
+        show them; None if there are none.
     flame_distance
         Their distance in each cell of the picture (see `flame_distance`), m; None if surfaces do not know it.
     parts
@@ -61,11 +65,12 @@ class Eye:
         number: int,
         smoke: Sequence[volume.Bricks],
         flames: volume.FlameVolume | None = None,
+        outline: volume.FlameVolume | None = None,
         flame_distance: Array | None = None,
         parts: bool = False,
     ) -> None:
         self.shot, self.stage, self.channels = shot, stage, channels
-        self.smoke, self.flames = smoke, flames
+        self.smoke, self.flames, self.outline = smoke, flames, outline
         self._burning: dict[str, Any] = {} if flames is None else {"flames": flames}
         self.number = number
         height, width = self.shape = next(iter(channels.values())).shape[:2]
@@ -153,15 +158,16 @@ class Eye:
         if not (self.smoke or self.flames):
             return bare
         air = illumination.infrared_arguments(self.shot, self.stage, frame)
-        air |= self._burning
-        everywhere = np.ones(self.shape, bool)
-        marched = self._march_infrared(self.smoke, everywhere, _PLACES, air)
+        burning, alight = air | self._burning, np.zeros(self.shape, bool)
         if self.flames:
-            alight = self._march_infrared([], everywhere, _PLACES, air)[:, 1] < 1.0
-            alight = composite.widen(alight.reshape(self.shape), _AROUND)
-            finer = self._march_infrared(self.smoke, alight, _FINER_PLACES, air)
-            marched[alight.ravel()] = finer
-        light, through = np.moveaxis(marched.reshape(*self.shape, 2), -1, 0)
+            outline = air | {"flames": self.outline}
+            alight = self._march_infrared([], ~alight, _PLACES, outline)[:, 1].reshape(self.shape) < 1.0
+            alight = composite.widen(alight, _AROUND)
+        marched = np.empty((*self.shape, 2), np.float32)
+        for chosen, places, met in ((~alight, _MIDDLE, air), (alight, _FINER_PLACES, burning)):
+            if chosen.any():
+                marched[chosen] = self._march_infrared(self.smoke, chosen, places, met)
+        light, through = np.moveaxis(marched, -1, 0)
         return bare * through + light
 
     def _march_infrared(
@@ -206,12 +212,19 @@ class Eye:
 
     def _flames_before(self, ends: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Return the distances (h, w) up to opaque flames or `ends`, m, and a mask of the opaque flames."""
-        reached = np.minimum(ends, _FARTHEST).reshape(-1, 1)
-        at = reached * np.geomspace(_NEAREST, 1.0, _TAPS)
-        found = volume.march([], *_lines(self.rays), at, self._light, _STEP, flames=self.flames)
-        opaque = found[..., 3] < masks.HIDES
-        first = np.where(opaque.any(axis=1), at[np.arange(len(at)), opaque.argmax(axis=1)], ends.ravel())
-        return first.reshape(self.shape).astype(np.float32), opaque[:, -1].reshape(self.shape)
+        origins, directions = _lines(self.rays)
+        reached, first = np.minimum(ends, _FARTHEST).reshape(-1, 1), ends.ravel().copy()
+        found = volume.march([], origins, directions, reached, self._light, _STEP, flames=self.outline)
+        near = found[:, 0, 3] < _THIN
+        burning = np.zeros(len(near), bool)
+        if near.any():
+            at = reached[near] * np.geomspace(_NEAREST, 1.0, _TAPS)
+            lines = origins if origins.ndim == 1 else origins[near], directions[near]
+            found = volume.march([], *lines, at, self._light, _STEP, flames=self.flames)
+            opaque = found[..., 3] < masks.HIDES
+            burning[near] = opaque[:, -1]
+            first[near] = np.where(opaque[:, -1], at[np.arange(len(at)), opaque.argmax(axis=1)], first[near])
+        return first.reshape(self.shape), burning.reshape(self.shape)
 
     def hidden_by_near_smoke(self, near: float) -> float:
         """Estimate the share of the picture, 0 to 1, that is hidden by smoke nearer than `near` m."""

@@ -7,6 +7,7 @@ sample depth. Other passes, of one ray per pixel, come from a second render.
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -40,6 +41,7 @@ _BLOOM = {"Threshold": 2.5, "Maximum": 20.0}  # radiance times 2^exposure; text,
 _LAYERS = (
     "R, G, B = solid + fire + smoke; solid = light_sun + light_sky + light_fire; bloom is not in R, G, B"
 )
+_OUTLINE = 640  # columns of a picture whose detail of flames is enough to find the pixels that show them
 _CLOSE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share of the picture
 
 Array = NDArray[np.float32]
@@ -85,14 +87,24 @@ class IntegratedRenderer:
         self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path
     ) -> None:
         first = next(iter(pictures))
-        flames = self._flames(pictures[first].frame)
-        distance = self._measure_flames(flames) if "rgb" in pictures else None
+        flames, outline = self._flames(pictures[first].frame)
+        distance = self._measure_flames(outline) if "rgb" in pictures else None
         with self.cost.part(frame_cost.SURFACES):
             rendered = surfaces.render(self.scene, [first], part)
             wanted = self.has_text and "rgb" in pictures
             text = text_layer.render(self.scene, part) if wanted else {}
         eyes = [
-            Eye(self.shot, self.stage, found[first], number, smoke, flames, distance, "comp" in pictures)
+            Eye(
+                self.shot,
+                self.stage,
+                found[first],
+                number,
+                smoke,
+                flames,
+                outline,
+                flame_distance=distance,
+                parts="comp" in pictures,
+            )
             for number, found in rendered
         ]
         if "rgb" in pictures:
@@ -110,11 +122,15 @@ class IntegratedRenderer:
             depth = [eye.channels["Depth"][..., 0] for eye in eyes]
             self._write(part, pictures["depth"], np.concatenate(depth))
 
-    def _flames(self, frame: int) -> volume.FlameVolume | None:
-        """Return the flames of a frame that are drawn as a volume."""
+    def _flames(self, frame: int) -> tuple[volume.FlameVolume | None, volume.FlameVolume | None]:
+        """Return the flames of a frame that are drawn as a volume, and the same with detail for outlines."""
         (view,) = self.shot.paths
         with self.cost.part(frame_cost.MARCH):
-            return flame_volume.build(self.shot, view, frame, fire.torching_crowns(self.stage))
+            build = functools.partial(
+                flame_volume.build, self.shot, view, frame, fire.torching_crowns(self.stage)
+            )
+            flames = build()
+            return flames, flames if view.width <= _OUTLINE else build(columns=_OUTLINE)
 
     def _measure_flames(self, flames: volume.FlameVolume | None) -> Array | None:
         """Show surfaces the distance of flames in each cell, and return it; None if they cannot read it."""
@@ -185,7 +201,7 @@ class IntegratedRenderer:
                 pixels = channels["Combined" if known.socket == "Image" else known.socket]
                 if passes.records_masks(known):
                     flames = self._flames(picture.frame)
-                    pixels = Eye(self.shot, self.stage, channels, number, smoke, flames).masks(pixels)
+                    pixels = Eye(self.shot, self.stage, channels, number, smoke, *flames).masks(pixels)
                 halves.append(pixels)
             self._write(part, picture, np.concatenate(halves))
 

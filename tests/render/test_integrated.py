@@ -110,6 +110,15 @@ def test_a_pass_is_the_same_whatever_is_made_with_it(film):
         assert np.array_equal(film(name)[name], together[name])
 
 
+def test_coarse_outlines_find_the_pixels_that_show_flames(film, monkeypatch):
+    fine = film("thermal", "masks")
+    monkeypatch.setattr(integrated, "_OUTLINE", 32)
+    coarse = film("masks", "thermal")
+    assert (fine["masks"][..., 0] == masks_pass.FIRE).any()
+    assert np.mean(fine["masks"] == coarse["masks"]) > 0.995
+    assert np.abs(fine["thermal"][..., 0] - coarse["thermal"][..., 0]).mean() < 0.2
+
+
 def test_smoke_has_no_grain(film):
     first, second = (film("rgb", "masks", grain=grain) for grain in (0, 1))
     hidden = (first["masks"][..., 1] < 1e-3) & (second["masks"][..., 1] < 1e-3)

@@ -50,7 +50,12 @@ Array = NDArray[np.float64]
 
 
 def build(
-    shot: Shot, path: Path, frame: int, torches: flames.Points | None, limit: float | None = None
+    shot: Shot,
+    path: Path,
+    frame: int,
+    torches: flames.Points | None,
+    limit: float | None = None,
+    columns: int | None = None,
 ) -> volume.FlameVolume | None:
     """Build the flames that a camera may see in a frame; None if there are none.
 
@@ -60,6 +65,8 @@ def build(
         Torching crowns of the shot.
     limit
         Distance (m) up to which flames are drawn, in all directions; None: `flame_map.reach`, in the view.
+    columns
+        Columns of a picture that shows their detail; None: the path's.
     """
     all_around = path.around or limit is not None
     limit = flame_map.reach(shot, path) if limit is None else limit
@@ -78,7 +85,7 @@ def build(
         spindles=crowns,
         shape=volume.FlameShape(wind=flame_map.carrying_wind(shot)),
         light=light(shot, frame, float(eye[2])),
-        pixel=2.0 * path.halves[frame - 1][0] / path.width,
+        pixel=2.0 * path.halves[frame - 1][0] / (columns or path.width),
         fade=[part * limit for part in flame_map.FADE],
         origin=eye,
         time=flame_clock.time(shot.frames, time),
