@@ -8,7 +8,7 @@ from datetime import datetime
 import numpy as np
 import pytest
 from firetwin import cli
-from firetwin.export import czml, fronts, georeference, kmz, pictures, texts, tracks
+from firetwin.export import czml, fronts, georeference, kmz, overlays, pictures, texts, tracks
 from firetwin.export.request import ExportRequest
 from firetwin.run.front import reach
 from firetwin.shot.source import ShotSource
@@ -233,6 +233,17 @@ def test_holes_belong_to_the_smallest_ring_around_them():
     lake, island, pond = square(3.0, clockwise=True), square(2.0), square(1.0, clockwise=True)
     found = fronts.polygons([pond, square(5.0), island, lake, square(1.0) + 20.0])
     assert [[float(np.ptp(ring)) for ring in polygon] for polygon in found] == [[10, 6], [4, 2], [2]]
+
+
+def test_a_ground_overlay_has_each_cell_at_its_place(request_of):
+    run = request_of().shot.run
+    arrival, _ = overlays.draw(run)
+    rows, columns = arrival.pixels.shape[:2]
+    row = (arrival.north - run.fuel_latitude) / (arrival.north - arrival.south) * rows
+    column = (run.fuel_longitude - arrival.west) / (arrival.east - arrival.west) * columns
+    shown = arrival.pixels[np.ix_(row.astype(int), column.astype(int))][..., 3] > 0
+    np.testing.assert_array_equal(shown, run.fuel_arrival_time() <= run.times[-1])
+    assert 0 < shown.sum() < shown.size
 
 
 def test_names_of_users_stay_names(request_of):
