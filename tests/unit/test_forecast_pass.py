@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from datetime import UTC, datetime
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging import split_screen
 from firetwin.render import fingerprint, plan
-from firetwin.render.finish import _forecast_text, finisher, forecast
+from firetwin.render.finish import _forecast_text, finisher, forecast, outcomes
 from firetwin.run.ensemble import ensemble, write
 from firetwin.run.ensemble.choice import MOST_LINES
 from firetwin.run.ensemble.manifest import LeftOut, Manifest, Member
@@ -278,3 +279,35 @@ def test_a_pass_of_the_command_line_needs_an_ensemble_too(scene):
         plan.pictures(shot, names="forecast")
     assert passes.is_marched(passes.known()["forecast"])
     assert not passes.is_marched(passes.known()["edl"])
+
+
+def test_outcomes_take_turns_of_one_and_a_half_seconds():
+    shown = [outcomes.turn(frame, Fraction(12), 3) for frame in range(1, 73)]
+    assert shown == [0] * 18 + [1] * 18 + [2] * 18 + [0] * 18
+    assert outcomes.turn(2, Fraction(1, 10), 3) == 1
+    film = [outcomes.turn(frame, Fraction(24000, 1001), 2) for frame in range(1, 73)]
+    assert film == [0] * 36 + [1] * 36
+
+
+def test_the_bar_has_a_part_for_each_run():
+    grey = np.full((120, 90, 3), 0.5, np.float32)
+    found = outcomes.with_bar(grey, 1, 3)
+    assert np.array_equal(found[2:], grey[2:])
+    assert (found[:2, 31:57] == 1.0).all()
+    assert found[:2, :30].max() < 0.5
+    assert found[:2, 60:].max() < 0.5
+
+
+def test_outcomes_are_made_of_the_forecast_pictures_of_all_runs(scene, tmp_path):
+    text = scene.read_text().replace('passes = ["forecast"]', 'passes = ["outcomes"]')
+    scene.write_text(text.replace("[[cameras]]", '[[runs]]\nname = "same"\npath = "run"\n[[cameras]]'))
+    shot = ShotSource(scene=str(scene)).shot()
+    wanted = {(picture.camera, picture.name) for picture in plan.pictures(shot)}
+    assert wanted == {("drone", "forecast"), ("drone@same", "forecast"), ("drone", "outcomes")}
+    needed = {}
+    for level, name in ((0.2, "forecast"), (0.7, "forecast@same")):
+        needed[name] = {"png": tmp_path / f"{level}.png"}
+        sensor.write_image(needed[name]["png"], np.full((48, 64, 3), level, np.float32))
+    for frame, level in ((1, 0.2), (40, 0.7)):
+        finisher("outcomes")({"png": tmp_path / "o.png"}, needed, shot, "drone", frame)
+        assert sensor.read_image(tmp_path / "o.png")[20, 20, 0] == pytest.approx(level, abs=0.01)

@@ -1,0 +1,43 @@
+"""Show the forecast pictures of all runs in turn (see `shot.passes.outcomes`)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+import numpy as np
+from firetwin_core import sensor
+from numpy.typing import NDArray
+
+from ...shot.passes import view_of
+from ...shot.shot import Shot
+from . import Files
+
+SECONDS = Fraction(3, 2)
+"""Time of one run on the screen, s."""
+_BAR = 60  # height of the picture / height of the bar
+_OTHER = 0.25  # grey level of the parts of the bar that are not shown
+
+
+def finish(files: Files, needed: Mapping[str, Files], shot: Shot, _camera: str, frame: int) -> None:
+    """Choose the picture of a frame, and draw the bar."""
+    names = ["forecast", *(view_of("forecast", label) for label in shot.others)]
+    which = turn(frame, shot.settings.time.rate, len(names))
+    picture = sensor.read_image(needed[names[which]]["png"])[..., :3]
+    sensor.write_image(files["png"], with_bar(picture, which, len(names)))
+
+
+def turn(frame: int, rate: Fraction, runs: int) -> int:
+    """Return the index of the run that a frame, from 1, shows at a frame rate (1/s)."""
+    return (frame - 1) // max(round(SECONDS * rate), 1) % runs
+
+
+def with_bar(picture: NDArray[np.float32], which: int, runs: int) -> NDArray[np.float32]:
+    """Draw a bar at the top of a picture (h, w, 3): a part for each run, the shown one white."""
+    found = picture.copy()
+    height, width = picture.shape[:2]
+    rows, edges = max(height // _BAR, 2), np.linspace(0, width, runs + 1).round().astype(int)
+    for run in range(runs):
+        found[:rows, edges[run] : edges[run + 1] - 2] = 1.0 if run == which else _OTHER
+        found[:rows, edges[run + 1] - 2 : edges[run + 1]] = 0.0
+    return found
