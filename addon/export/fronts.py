@@ -61,7 +61,7 @@ def of_shot(shot: Shot, frames: Sequence[int]) -> list[DatedFront]:
     Parameters
     ----------
     frames
-        Frames of the film that have a front of their own, up to `MOST_FRAMES` of them.
+        Frames of the film whose times have fronts, up to `MOST_FRAMES` of them.
     """
     run = shot.run
     zone = shot.settings.time.zone

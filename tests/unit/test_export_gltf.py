@@ -11,41 +11,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from firetwin.export import fronts, georeference, gltf, gltf_terrain, tracks, viewer_page
-from firetwin.export.request import ExportRequest
-from firetwin.export.scene_content import CameraMove, Plants, Prototype, SceneContent
+import small_gltf
+from firetwin.export import fronts, gltf, gltf_terrain, viewer_page
 from firetwin.export.scene_job import SceneExport
 from firetwin.export.viewer_page import PageText
 from firetwin.progress import silent
-from firetwin.shot.source import ShotSource
 from page_parts import PageParts
 from PIL import Image
 from pyproj import Transformer
-from small_run import RUN_TOML, small_fields, write_field
+from small_gltf import HOSTILE, IDS, TREES
 
-HOSTILE = "</script><script>alert(1)</script>\"' <img src=x onerror=alert(2)> & \u202eabc\u2028 🔥"
-SCENE = """\
-run = "run"
-[time]
-start = 2014-09-17T04:45:30Z
-end = 2014-09-17T04:47:00Z
-frames = 4
-[terrain]
-near_radius = 0.0
-[tiles]
-geoid = -24.9
-[[cameras]]
-name = "drone"
-keys = [
-  { at = 0.0, latitude = 38.905, longitude = -120.59, height = 400, target = "fire" },
-  { at = 1.0, latitude = 38.9, longitude = -120.6, height = 300, target = "fire" },
-]
-"""
-NAME = RUN_TOML.replace('name = "Small"', "name = " + json.dumps(HOSTILE, ensure_ascii=False))
 THREE = Path(viewer_page.__file__).parent / "viewer/three"
 TYPES = {5126: "<f4", 5123: "<u2", 5125: "<u4", 5122: "<i2"}
 SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-TREES, IDS = 300, 2**24 - 1 - np.arange(300)
 
 
 class Glb:
@@ -122,61 +100,11 @@ def matrix(quaternion):
     ])  # fmt: skip
 
 
-def content(shot, request):
-    """Trees of two models, the second burned by the fire, and the cameras."""
-    rng = np.random.default_rng(5)
-    points = np.array([[0, 0, 0], [0.2, 0, 0.5], [0, 0.2, 0.5], [0, 0, 1.0], [0.1, 0, 1.0]], np.float32)
-    triangles = np.array([[0, 1, 2], [1, 3, 2], [0, 4, 3]])
-    models = [
-        Prototype(f"{kind}_00_living_level{level}", kind, "living", level, points, triangles,
-                  np.full((3, 3), 0.1 * (level + 1), np.float32), np.array([0, 0, 1]))
-        for kind, level in (("large", 1), ("large", 3))
-    ]  # fmt: skip
-    turn = rng.normal(size=(TREES, 4))
-    position = np.column_stack([rng.uniform(-9000, 9000, (TREES, 2)), rng.uniform(0, 900, TREES)])
-    nothing = np.zeros(TREES, np.float32)
-    arrival = np.where(np.arange(TREES) % 2, rng.uniform(0, 300, TREES), np.inf).astype(np.float32)
-    trees = Plants(
-        name="Trees",
-        position=position.astype(np.float32),
-        rotation=(turn / np.linalg.norm(turn, axis=1, keepdims=True)).astype(np.float32),
-        scale=rng.uniform(3, 30, (TREES, 3)).astype(np.float32),
-        ids=IDS,
-        prototype=np.arange(TREES) % 2,
-        burned_prototype=np.arange(TREES) % 2,
-        burned_from=arrival,
-        arrival=arrival,
-        scorch=nothing,
-        torched=nothing,
-    )
-    moves = [
-        CameraMove(HOSTILE, each.frames, each.position, each.rotation, each.focal, (36.0, 20.25), (0.0,) * 2,
-                   np.tile([0.5, 1e5], (len(each.frames), 1)), each.projection)
-        for each in tracks.find(request)
-    ]  # fmt: skip
-    numbers = np.array(request.frames)
-    times = np.array([shot.frames.time(frame) for frame in request.frames])
-    return SceneContent(numbers, times, 24.0, None, models, [trees], None, moves, [])
-
-
 @pytest.fixture(scope="module")
 def small(tmp_path_factory):
-    """Shot, content, .glb and page of a small run with hostile names."""
-    folder = tmp_path_factory.mktemp("gltf")
-    rows, columns = np.ogrid[:8, :10]
-    arrival = (30.0 * np.hypot(rows - 3.6, columns - 4.3)).astype(np.float32)
-    (folder / "run").mkdir()
-    (folder / "run/run.toml").write_text(NAME, encoding="utf-8")
-    for name, values in (small_fields() | {"fuel_arrival_time": arrival}).items():
-        write_field(folder / "run", name, values, "npy")
-    (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
-    source = ShotSource(scene=str(folder / "scene.toml"))
-    shot = source.shot()
-    place = georeference.resolve(shot)
-    request = ExportRequest(source, shot, (1, 2, 3, 4), place, folder)
-    whole = content(shot, request)
-    made = gltf.write_content(whole, SceneExport(shot, place, folder, silent))
-    return shot, whole, request, *(path.read_bytes() for path in made)
+    """Shot, content, request, .glb and page of a small run with hostile names."""
+    *inputs, scene, page = small_gltf.write(tmp_path_factory.mktemp("gltf"))
+    return *inputs, scene.read_bytes(), page.read_bytes()
 
 
 @pytest.fixture(scope="module")
