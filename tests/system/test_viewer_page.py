@@ -1,6 +1,6 @@
 """The viewer page of a glTF scene in a real browser: time, cameras, keys, access, and no outside request.
 
-Needs the extra `browser`, and Debian's chromium and chromium-driver; skipped without them. The processor draws.
+Needs the extra `browser`, and Debian's chromium and chromium-driver; skipped without them.
 """
 
 from __future__ import annotations
@@ -110,7 +110,8 @@ def value(browser):
 def test_three_js_reads_the_whole_scene(opened):
     counts = opened.execute_script("""
       const { world } = viewer, trees = new Set();
-      for (const { mesh } of world.cells) mesh.geometry.getAttribute("_ID").array.forEach((id) => trees.add(id));
+      const numbers = world.cells.map(({ mesh }) => mesh.geometry.getAttribute("_ID").array);
+      for (const each of numbers) each.forEach((id) => trees.add(id));
       return [trees.size, world.fronts.length, world.cameras.length, Boolean(world.terrain)];
     """)
     assert counts[0] == small_gltf.TREES
