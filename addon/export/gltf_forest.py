@@ -9,6 +9,7 @@ before the fire.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from .scene_content import LOOKS, Array, Numbers, Plants, Prototype, SceneConten
 
 EXTENSION = "EXT_mesh_gpu_instancing"
 _CELL = 4000.0  # m
+_HEAVY = 10_000  # triangles; trees within a few tens of metres of a camera have 50,000
 _MIXED = 2654435761  # multiplicative hash: Knuth, The Art of Computer Programming 3, section 6.4
 _TWO_SIDED = ("foliage", "grass")
 _CROWN = 0.4  # of the height: centre of the normals of foliage, by eye
@@ -39,12 +41,35 @@ def add(document: Document, content: SceneContent, start: float) -> None:
         return
     document.use(EXTENSION)
     root, models = document.node("forest"), _Models(document, content.prototypes)
-    for plants in content.plants:
+    lighter = light_prototypes(content.prototypes)
+    for each in content.plants:
+        plants = replace(each, prototype=lighter[each.prototype])
         parent = document.node(plants.name.lower(), root)
         for (east, north, prototype), chosen in groups(plants):
             name = f"{content.prototypes[prototype].name} {east} {north}"
             instances = {"attributes": _instances(document, plants, chosen, start)}
             document.node(name, parent, mesh=models.number(prototype), extensions={EXTENSION: instances})
+
+
+def light_prototypes(prototypes: list[Prototype]) -> Numbers:
+    """Choose a prototype for each (n,): instead of one with every needle, the same model in the next level.
+
+    Prototypes of one model whose other levels the scene does not use stay as they are.
+    """
+    found = np.arange(len(prototypes))
+    for k, heavy in enumerate(prototypes):
+        same = [
+            j
+            for j, each in enumerate(prototypes)
+            if _model(each) == _model(heavy) and each.level > heavy.level
+        ]
+        if len(heavy.triangles) > _HEAVY and same:
+            found[k] = min(same, key=lambda j: prototypes[j].level)
+    return found
+
+
+def _model(prototype: Prototype) -> str:
+    return prototype.name.rpartition("_level")[0]
 
 
 def groups(plants: Plants) -> Iterator[tuple[tuple[int, int, int], Numbers]]:
@@ -88,8 +113,7 @@ class _Models:
 
     def _add(self, model: Prototype) -> int:
         parts = [self._part(model, int(look)) for look in np.unique(model.looks)]
-        same = model.name.rpartition("_level")[0]
-        extras = {"model": same, "class": model.kind, "state": model.state, "level": model.level}
+        extras = {"model": _model(model), "class": model.kind, "state": model.state, "level": model.level}
         return self._document.add("meshes", {"name": model.name, "primitives": parts, "extras": extras})
 
     def _part(self, model: Prototype, look: int) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import small_gltf
-from firetwin.export import fronts, gltf, gltf_terrain, viewer_page
+from firetwin.export import fronts, gltf, gltf_forest, gltf_terrain, viewer_page
 from firetwin.export.scene_job import SceneExport
 from firetwin.export.viewer_page import PageText
 from firetwin.progress import silent
@@ -258,6 +258,14 @@ def test_a_still_or_flat_camera_has_no_animation_and_its_own_lens(small):
     assert (one["orthographic"]["xmag"], one["orthographic"]["ymag"]) == (200.0, 150.0)
     np.testing.assert_allclose(found.nodes("cameras")[1]["extras"]["yfov"][3], 2 * np.arctan(20.25 / 100.0))
     assert two["perspective"]["yfov"] == pytest.approx(2 * np.arctan(20.25 / 40.0))
+
+
+def test_a_tree_of_many_needles_becomes_the_same_tree_in_the_next_level(small):
+    _, whole, *_ = small
+    near, far = whole.prototypes
+    heavy = replace(near, name="large_00_living_level0", level=0, triangles=np.zeros((20_000, 3), np.int64))
+    other = replace(heavy, name="oak_10_living_level0")
+    assert gltf_forest.light_prototypes([heavy, far, near, other]).tolist() == [2, 1, 2, 3]
 
 
 def test_arrival_times_before_and_after_the_span_are_clamped_or_never():
