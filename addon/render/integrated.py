@@ -39,7 +39,8 @@ _AOVS = {flame_gaps.AOV: "VALUE", nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR",
 _PICTURE = "integrated picture"
 _BLOOM = {"Threshold": 2.5, "Maximum": 20.0}  # radiance times 2^exposure; text, of 2, has no bloom
 _LAYERS = (
-    "R, G, B = solid + fire + smoke; solid = light_sun + light_sky + light_fire; bloom is not in R, G, B"
+    "R, G, B = solid + fire + smoke; solid = light_sun + light_sky + light_fire; "
+    "bloom and labels are not in R, G, B"
 )
 _OUTLINE = 640  # columns of a picture whose detail of flames is enough to find the pixels that show them
 _CLOSE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share of the picture
