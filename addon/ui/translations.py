@@ -67,6 +67,7 @@ GERMAN = {
     "End at Event": "Ende bei Ereignis",
     "Fire": "Feuer",
     "Firetwin": "Firetwin",
+    "Forecast": "Vorhersage",
     "Forest": "Wald",
     "Go to Place": "Zu Ort gehen",
     "Help": "Hilfe",

@@ -2,6 +2,7 @@
 
 import shutil
 from dataclasses import replace
+from datetime import UTC, datetime
 
 import bpy
 import numpy as np
@@ -9,6 +10,8 @@ import pytest
 import rendered
 from firetwin.blender import owned
 from firetwin.render.store import Store
+from firetwin.run.ensemble import write
+from firetwin.run.ensemble.manifest import Manifest, Member
 from firetwin.scene.fire import build as fire
 from firetwin.shot.settings import OtherRun
 from firetwin.shot.shot import Shot
@@ -18,9 +21,11 @@ from scene_text import TINY
 SCENE = (
     'run = "{run}"\n[time]\nstart = 2014-09-17T21:30:00Z\nframes = 1\n'
     + '[terrain]\nnear_radius = 0.0\napron = 0.0\n[forest]\ntrees = false\ngrass = false\nunderstorey = 0\n'
-    + '[smoke]\nenabled = false\n[fire]\nfronts = true\nflames = false\n'
+    + '[smoke]\nenabled = false\n[forecast]\nensemble = "{ensemble}"\nmember = "01"\n'
+    + '[fire]\nfronts = true\nflames = false\n'
     + TINY
-    + 'passes = ["depth", "split", "difference"]\n[[runs]]\nname = "late"\npath = "{late}"\n[[cameras]]\n'
+    + 'passes = ["comp", "depth", "split", "difference", "outcomes"]\n'
+    '[[runs]]\nname = "late"\npath = "{late}"\n[[cameras]]\n'
     'name = "drone"\nkeys = [{{latitude = 38.81, longitude = -120.57, height = 3000, target = "fire"}}]\n'
 )  # fmt: skip
 
@@ -42,9 +47,26 @@ def late_folder(run_folder, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def film(run_folder, late_folder, tmp_path_factory):
+def ensemble_folder(run_folder, tmp_path_factory):
+    """A forecast whose members are the late run, this run, and one that burns all."""
+    folder = tmp_path_factory.mktemp("ensemble") / "ensemble"
+    latitude, longitude, arrival = (
+        np.load(run_folder / f"fuel_{name}.npy") for name in ("latitude", "longitude", "arrival_time")
+    )
+    mine = np.where(np.isfinite(arrival), arrival, np.inf)
+    late = mine + 600.0
+    late[:10] = np.nan  # south of its grid
+    every = (late, mine, np.zeros_like(mine))
+    members = [(Member(f"{i:02}"), each) for i, each in enumerate(every)]
+    head = Manifest("test", "made up", datetime(2014, 9, 17, 21, tzinfo=UTC), 3600.0, ())
+    write.write(folder, head, latitude, longitude, members)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def film(run_folder, late_folder, ensemble_folder, tmp_path_factory):
     """One frame of everything, as the worker process makes it."""
-    text = SCENE.format(run=run_folder, late=late_folder)
+    text = SCENE.format(run=run_folder, late=late_folder, ensemble=ensemble_folder)
     return rendered.everything(tmp_path_factory.mktemp("film"), text)
 
 
@@ -56,16 +78,29 @@ def test_all_is_made_and_entered(film):
     _, out = film
     with Store(out) as store:
         assert store.names() == [
+            "drone/comp/drone_comp_000001.exr",
             "drone/depth/drone_depth_000001.exr",
             "drone/difference/drone_difference_000001.png",
+            "drone/forecast/drone_forecast_000001.png",
+            "drone/outcomes/drone_outcomes_000001.png",
             "drone/rgb/drone_rgb_000001.exr",
             "drone/rgb/drone_rgb_000001.png",
             "drone/split/drone_split_000001.png",
+            "drone_at_late/comp/drone_at_late_comp_000001.exr",
             "drone_at_late/depth/drone_at_late_depth_000001.exr",
+            "drone_at_late/forecast/drone_at_late_forecast_000001.png",
             "drone_at_late/rgb/drone_at_late_rgb_000001.exr",
             "drone_at_late/rgb/drone_at_late_rgb_000001.png",
         ]
     assert _read(out, "drone", "split", "png").shape[:2] == (36, 64)
+
+
+def test_the_forecast_tints_ground_that_members_burned(film):
+    _, out = film
+    rgb, found = (_read(out, "drone", name, "png")[..., :3] for name in ("rgb", "forecast"))
+    bluer = (found[..., 2] - found[..., 0]) - (rgb[..., 2] - rgb[..., 0])
+    assert np.mean(bluer > 0.1) > 0.1
+    assert np.abs(_read(out, "drone", "outcomes", "png")[4:, :, :3] - found[4:]).max() < 0.01
 
 
 def test_the_same_pixels_show_the_same_ground_in_both_runs(film):
