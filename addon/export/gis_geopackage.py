@@ -64,7 +64,7 @@ class Table:
     def bounds(self) -> list[float | None]:
         """Compute west, south, east and north of all features; None without any."""
         flat = [points[:, :2] for shape, _ in self.rows for points in _points(shape)]
-        return _box(np.concatenate(flat)) if flat else [None] * 4
+        return [*_box(np.concatenate(flat))] if flat else [None] * 4
 
 
 def write(path: Path, tables: Sequence[Table], styles: dict[str, str], when: datetime) -> None:

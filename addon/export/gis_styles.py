@@ -45,7 +45,7 @@ def of_table(table: Table) -> list[ET.Element]:
     parts = [_renderer(table)]
     if "begin_time" in table.columns:
         fields = {"startField": "begin_time", "endField": "end_time", "mode": _START_AND_END}
-        parts.append(ET.Element("temporal", enabled="1", limitMode="0", accumulate="0", **fields))
+        parts.append(ET.Element("temporal", fields | {"enabled": "1", "limitMode": "0", "accumulate": "0"}))
     if is_labelled(table):
         parts.append(_labels(_LABELLED[table.name]))
     return parts

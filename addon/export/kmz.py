@@ -26,7 +26,6 @@ from .tracks import Track
 
 NAME = "scene.kmz"
 _START = 3.0  # s, flight to the first frame of a tour
-_DIGITS = 9  # of degrees, 0.1 mm
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)  # of all members, so that equal content is an equal file
 _MODE = 0o100644 << 16  # a file that its owner may write and all may read
 _COLOURS = {places.STATION: "#000000", places.LABEL: "#000000", places.IGNITION: map_symbols.FIRE_EDGE}
@@ -127,7 +126,7 @@ def _tour(track: Track, request: ExportRequest) -> Iterator[str]:
     yield f"<gx:Tour><name>{xml(track.name)}</name><gx:Playlist>\n"
     for k, when in enumerate(track.times):
         mode, lasts = ("smooth", steps[k]) if k else ("bounce", _START)
-        latitude, longitude = np.round(track.geodetic[k, :2], _DIGITS)
+        latitude, longitude = track.geodetic[k, :2].tolist()
         yield (
             f"<gx:FlyTo><gx:duration>{lasts:.6g}</gx:duration><gx:flyToMode>{mode}</gx:flyToMode><Camera>"
             f"<gx:horizFov>{angle[k]:.6f}</gx:horizFov><gx:TimeStamp><when>{iso(when)}</when></gx:TimeStamp>"

@@ -84,8 +84,8 @@ def _labels(shot: Shot) -> Iterator[Place]:
     if not found.names:
         return
     latitude, longitude, _ = shot.local_frame.reverse(found.position)
-    for name, kind, *where in zip(found.names, found.kinds, latitude, longitude, strict=True):
-        yield Place(name, LABEL, kind, *map(float, where))
+    for name, kind, north, east in zip(found.names, found.kinds, latitude, longitude, strict=True):
+        yield Place(name, LABEL, kind, float(north), float(east))
 
 
 def _ignition(shot: Shot) -> Iterator[Place]:
