@@ -23,7 +23,7 @@ from .settings import Settings
 
 AGREES = 0.97
 """Agreement of the burned areas of a run and of a member from which on they are the same fire. Runs of the
-sample's ensemble have 0.999 or more with their members, and at most 0.93 with others (measured)."""
+sample's ensemble have 0.999 or more with their members, and at most 0.94 with others (measured)."""
 _CACHED = 2  # ensembles
 
 
