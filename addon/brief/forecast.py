@@ -130,7 +130,8 @@ def _section(briefing: Briefing, found: Forecast) -> Iterator[str]:
     yield (
         "<p class='soft'>Burned area of each member at the end of the forecast. Thick: member "
         f"{quote(found.names[found.typical])}, the most typical of the {found.count} (deepest by epsilon "
-        "inclusion depth). Shaded: burned by some, not all, of the more typical half of the members. Dashed: "
+        "inclusion depth). Blue: burned by some of the more typical half of the members; dark blue: by all. "
+        "Grey: burned before the issue time. Dashed: "
         f"member {quote(found.names[found.outlier])}, the least typical.</p>"
     )
     unit = units.AREA[briefing.units]
@@ -161,7 +162,7 @@ def _places(briefing: Briefing, found: Forecast) -> Iterator[str]:
             never.append(quote(point.name))
     if rows:
         heads = [_share(share, found.count) for share in SHARES]
-        titles = "".join(f'<th scope="col">{quote(head)}<br>burn it</th>' for head in heads)
+        titles = "".join(f'<th scope="col">{quote(head)}<br>burn it by</th>' for head in heads)
         span = [_clock(found, time, briefing.zone) for time in (0.0, found.ensemble.horizon)]
         yield (
             '<div class="wide"><table><thead><tr><th scope="col" class="text">place</th>'
@@ -191,7 +192,7 @@ def _by(known: NDArray[np.float64], share: float, found: Forecast, zone: str) ->
     time = ordered[max(1, int(np.ceil(round(share * len(ordered), 9)))) - 1]
     if np.isinf(time):
         return "not within"
-    return "burned before" if time <= 0.0 else f"by {_clock(found, float(time), zone)}"
+    return "burned before" if time <= 0.0 else _clock(found, float(time), zone)
 
 
 def _share(share: float, count: int) -> str:

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from .briefing import Point
     from .forecast import Forecast
 
-_DOTS = 240, 26  # width and height
-_NEVER = 40  # width for the number of members that do not arrive
+_DOTS = 260, 26  # width and height
+_NEVER = 60  # width for the number of members that do not arrive
 _MAP = 900.0  # width
 
 
@@ -40,7 +40,7 @@ def dots(arrival: NDArray[np.float64], horizon: float, name: str) -> str:
         shapes.append(f'<circle class="member" cx="{x:.1f}" cy="{y}" r="3"/>')
     never = int(np.isinf(arrival).sum())
     if never:
-        shapes.append(f'<text x="{width}" y="{height - 6}" text-anchor="end" class="end">+{never}</text>')
+        shapes.append(f'<text x="{width}" y="{height - 6}" text-anchor="end" class="end">+{never} not</text>')
     label = f"{name}: {len(arrival) - never} of {len(arrival)} members arrive"
     return _svg(width, height, label, shapes, "dots")
 
@@ -53,8 +53,10 @@ def outlines(found: Forecast, points: Sequence[Point], mark: str) -> str:
     order = np.argsort(-found.depth, kind="stable")
     half = burned[order[: (len(order) + 1) // 2]]
     place = _Place(whole.latitude, whole.longitude, burned.any(0))
-    band = place.path(half.any(0)) + place.path(half.all(0))
-    shapes = [f'<path class="band" fill-rule="evenodd" d="{band}"/>']
+    shapes = [
+        f'<path class="band" fill-rule="evenodd" d="{place.path(part)}"/>'
+        for part in (half.any(0), half.all(0))
+    ]
     shapes += [
         f'<path class="other" d="{place.path(each)}"/>'
         for index, each in enumerate(burned)
@@ -62,6 +64,9 @@ def outlines(found: Forecast, points: Sequence[Point], mark: str) -> str:
     ]
     shapes.append(f'<path class="outlier" d="{place.path(burned[found.outlier])}"/>')
     shapes.append(f'<path class="typical" d="{place.path(burned[found.typical])}"/>')
+    before = whole.arrival(int(counted[found.typical])) <= 0.0
+    if before.any():
+        shapes.append(f'<path class="before" fill-rule="evenodd" d="{place.path(before)}"/>')
     shapes += place.scale()
     shapes += [text for point in points for text in place.spot(point)]
     if mark:

@@ -61,14 +61,14 @@ def test_times_are_counts_of_members(folder, stations, tmp_path):
     assert "Issued 16 Sep 2014 20:00 -08, valid until 17 Sep 2014 02:00 -08, 20 of 20 members" in text
     assert [cells[0] for cells in rows(text)] == ["Alpha", "Bravo"]
     for cells in rows(text):
-        assert cells[1:5] == ["burned before", "by 16 Sep 22:00", "not within", "7 of 20"]
-    assert "2 of 20<br>burn it" in text
+        assert cells[1:5] == ["burned before", "16 Sep 22:00", "not within", "7 of 20"]
+    assert "2 of 20<br>burn it by" in text
 
 
 def test_shares_of_many_members_are_percentages(folder, stations, tmp_path):
     made = members(tmp_path, folder, [HOURS] * 60)
     text = section(folder, stations, made)
-    assert "10% of members<br>burn it" in text
+    assert "10% of members<br>burn it by" in text
     assert "of 20<br>" not in text
 
 
@@ -103,5 +103,5 @@ def test_dots_count_the_members_that_do_not_arrive():
     circles = [each for each in drawn if each.tag == "circle"]
     assert len(circles) == 2
     assert float(circles[0].get("cx")) < float(circles[1].get("cx"))
-    assert [each.text for each in drawn if each.tag == "text"] == ["+2"]
+    assert [each.text for each in drawn if each.tag == "text"] == ["+2 not"]
     assert drawn.get("aria-label") == "A & B: 2 of 4 members arrive"
