@@ -2,6 +2,7 @@
 "use strict";
 
 const MOST_PAST = 16; // earlier fronts
+const BRIGHT = 1.9; // factor of leaves, by eye: light shines through them
 const GLOW = 600; // s for which reached ground and trees glow
 const BURNED = `
   float age = uTime - vArrival;
@@ -69,6 +70,7 @@ async function groundMaterial(gltf, plain, time) {
 function plantMaterial(plain, time) {
   const leaves = plain.name === "foliage" || plain.name === "grass";
   const made = new THREE.MeshLambertMaterial({ vertexColors: true, side: plain.side, name: plain.name });
+  if (leaves) made.color.setScalar(BRIGHT);
   made.onBeforeCompile = (shader) => {
     shader.uniforms.uTime = time;
     shader.vertexShader = shader.vertexShader
