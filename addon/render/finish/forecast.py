@@ -16,7 +16,8 @@ from ...shot.shot import Shot
 from .. import composite
 from . import Files, _forecast_text
 
-_TINT = 0.62  # opacity of the tint (by eye)
+_TINT = 0.7  # opacity of the tint (by eye)
+_FEW, _MANY = 0.1, 1.0  # strength of the tint for the fewest and the most members (by eye)
 _GREY = 0.8  # factor on the grey picture's brightness below it (by eye)
 _LINE = 0.8  # opacity of a line (by eye)
 _HATCH, _PERIOD = 0.35, 45  # opacity of hatching (by eye); its lines are height / _PERIOD apart
@@ -90,11 +91,15 @@ def clearness(layers: Mapping[str, Array]) -> Array:
 
 
 def tint(rgb: Array, kinds: NDArray[np.int64], colours: tuple[str, ...], clear: Array) -> Array:
-    """Tint a picture (h, w, 3) by classes (h, w) of these colours, over its grey; class 0 stays."""
+    """Tint a picture (h, w, 3) by classes (h, w) of these colours, over its grey; class 0 stays.
+
+    The tint is stronger for more members, so that ground that few burn does not stand out.
+    """
     grey = _GREY * (rgb @ np.array([0.2126, 0.7152, 0.0722], np.float32))[..., None]
     shades = np.array([[0.0] * 3, *map(_values, colours)], np.float32)[kinds]
     mixed = grey * (1.0 - _TINT) + shades * _TINT
-    share = np.where(kinds > 0, clear, 0.0)[..., None]
+    strength = np.array([0.0, *np.linspace(_FEW, _MANY, len(colours) + 1)[1:]], np.float32)[kinds]
+    share = (clear * strength)[..., None]
     return rgb * (1.0 - share) + mixed * share
 
 
