@@ -33,7 +33,14 @@ SOURCES = (
     "CONTRIBUTING.md",
     "CHANGELOG.md",
 )
-SKIPPED = {"leaflet", "three", "out", "__pycache__", "prose", "test_prose.py"}  # foreign text, examples of the rules
+SKIPPED = {
+    "leaflet",
+    "three",
+    "out",
+    "__pycache__",
+    "prose",
+    "test_prose.py",
+}  # foreign text, examples of the rules
 
 
 class Hit(NamedTuple):
