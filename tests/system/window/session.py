@@ -413,6 +413,7 @@ def leave(before: dict[str, list[str]]) -> Iterator[object]:
     check("Firetwin" not in names, f"and leaves the asset libraries of the user: {names}")
     picture("16-disabled")
     bpy.ops.preferences.addon_enable(module=MODULE)
+    view().spaces.active.show_region_ui = True
     yield 1
     tab()
     yield 2
