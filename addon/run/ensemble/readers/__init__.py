@@ -13,6 +13,7 @@ from ....errors import InputError, input_error
 from ...models.model import Options
 from .. import probability_maps
 from ..member_set import MemberSet
+from .files_in import files_in
 
 READERS = ("samples", "cell2fire", "elmfire", "wrf_sets", "wise", "folders")
 """Modules, in the order in which they are tried."""
@@ -37,10 +38,9 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     for module in modules:
         if module.sniff(paths):
             return module.read(paths, options, horizon)
-    for path in paths:
-        for each in sorted(path.iterdir()) if path.is_dir() else [path]:
-            if error := probability_maps.refusal(each):
-                raise error
+    for path in files_in(paths):
+        if error := probability_maps.refusal(path):
+            raise error
     raise unknown(paths[0], [module.NAME for module in modules])
 
 

@@ -23,6 +23,7 @@ from ...models.model import Options
 from .. import write
 from ..manifest import Manifest, Member
 from ..member_set import MemberSet
+from .files_in import files_in
 
 NAME = "Cell2Fire"
 
@@ -155,8 +156,7 @@ def _fuels(paths: list[Path], folder: Path) -> raster.Raster:
     InputError
         They are not among the paths.
     """
-    files = [each for path in paths for each in (sorted(path.iterdir()) if path.is_dir() else [path])]
-    for path in files:
-        if path.is_file() and path.stem.lower() in ("fuels", "forest") and raster.is_raster(path):
+    for path in files_in(paths):
+        if path.stem.lower() in ("fuels", "forest") and raster.is_raster(path):
             return raster.read(path)
     raise input_error(folder, "has no grid; give the model's fuels.asc or fuels.tif too")

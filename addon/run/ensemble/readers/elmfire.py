@@ -24,6 +24,7 @@ from ...models.model import Options
 from .. import write
 from ..manifest import Manifest, Member
 from ..member_set import MemberSet
+from .files_in import files_in
 
 NAME = "ELMFIRE"
 
@@ -36,12 +37,12 @@ _MOST = 1 << 28  # burned cells of a case
 
 def sniff(paths: list[Path]) -> bool:
     """Check for arrival maps or lists of several cases."""
-    return len(_cases(_files(paths))) > 1
+    return len(_cases(files_in(paths))) > 1
 
 
 def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     """Read one member for each case."""
-    files = _files(paths)
+    files = files_in(paths)
     cases = _cases(files)
     first = next(iter(cases.values()))
     table = next((path for path in files if path.name == _STATISTICS), None)
@@ -189,9 +190,3 @@ def _any_raster(files: list[Path], path: Path) -> raster.Raster:
         if raster.is_raster(each):
             return raster.read(each)
     raise input_error(path, "lists cells of a grid; give a raster of the inputs, such as fbfm40.tif, too")
-
-
-def _files(paths: list[Path]) -> list[Path]:
-    """Collect these files and the files in these folders."""
-    inner = [sorted(path.iterdir()) if path.is_dir() else [path] for path in paths]
-    return [each for files in inner for each in files if each.is_file()]

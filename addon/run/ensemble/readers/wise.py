@@ -24,6 +24,7 @@ from ...observations.feature import Feature, Polygon
 from .. import write
 from ..manifest import Manifest, Member
 from ..member_set import MemberSet
+from .files_in import files_in
 
 NAME = "W.I.S.E. or Prometheus scenarios in KML"
 
@@ -36,12 +37,12 @@ Perimeters = list[tuple[datetime, list[Polygon]]]
 
 def sniff(paths: list[Path]) -> bool:
     """Check for KML files with the property SCENARIO."""
-    return any(_is_scenario(path) for path in _files(paths))
+    return any(_is_scenario(path) for path in files_in(paths))
 
 
 def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     """Read one member for each file."""
-    files = [path for path in _files(paths) if _is_scenario(path)]
+    files = [path for path in files_in(paths) if _is_scenario(path)]
     found: list[tuple[str, Perimeters | InputError]] = []
     for path in files:
         try:
@@ -158,9 +159,3 @@ def _is_scenario(path: Path) -> bool:
     except (OSError, InputError):
         return False
     return b'"SCENARIO"' in text
-
-
-def _files(paths: list[Path]) -> list[Path]:
-    """Collect these files and the files in these folders."""
-    inner = [sorted(path.iterdir()) if path.is_dir() else [path] for path in paths]
-    return [each for files in inner for each in files if each.is_file()]

@@ -22,6 +22,7 @@ from ...models.model import Options
 from .. import write
 from ..manifest import Manifest, Member
 from ..member_set import MemberSet
+from .files_in import files_in
 
 NAME = "WRF-SFIRE sets"
 
@@ -118,9 +119,8 @@ def _names(file: netcdf.File, count: int) -> list[str]:
 
 
 def _file(paths: list[Path]) -> Path | None:
-    for path in paths:
-        for each in sorted(path.iterdir()) if path.is_dir() else [path]:
-            dimensions, variables = netcdf.names(each)
-            if "ens" in dimensions and _AREA in variables:
-                return each
+    for path in files_in(paths):
+        dimensions, variables = netcdf.names(path)
+        if "ens" in dimensions and _AREA in variables:
+            return path
     return None
