@@ -15,7 +15,8 @@ PACKAGES = sorted(set(optional_features.COMMANDS.values()))
 SCENE = 'run = "{run}"\n[time]\nframes = 1\n' + NO_PLANTS + NO_SMOKE + TINY + DRONE
 REGISTER = "import firetwin; firetwin.register(); firetwin.unregister()"
 IMPORT_ALL = """
-import importlib, pkgutil, firetwin
+import bpy, importlib, pkgutil, firetwin
+bpy.utils.expose_bundled_modules()  # pxr
 for each in pkgutil.walk_packages(firetwin.__path__, "firetwin."):
     if each.name.split(".")[1] in {packages}:
         importlib.import_module(each.name)

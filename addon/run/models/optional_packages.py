@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import sys
 from types import ModuleType
 
@@ -14,11 +15,15 @@ ALL = "netCDF4 pyproj pyshp rasterio zarr"
 def package(name: str) -> ModuleType:
     """Import an optional package.
 
+    HDF5 is told not to lock files before it loads: a lock of a reader makes the next write of a running model
+    fail (HDF5_USE_FILE_LOCKING in the HDF5 user guide). A value that the user has set stays.
+
     Raises
     ------
     Error
         The package is missing; the message has the install command.
     """
+    os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
     try:
         return importlib.import_module(name)
     except ImportError:
