@@ -1,8 +1,8 @@
 """Log of finished files: each attempt at a task appends to a separate log. Runs without Blender.
 
 ``farm/entries/00012-0123456789ab.jsonl`` starts with a line on the start of the attempt, has one line per
-finished file, [path, bytes, sha256, fingerprint, camera, pass, frame, time], and ends with a line on the end
-of the attempt. No other process writes to it. Incomplete lines are ignored.
+finished file, [path, bytes, sha256, fingerprint, camera, pass, frame, time, clock], and ends with a line on
+the end of the attempt. No other process writes to it. Incomplete lines are ignored.
 """
 
 from __future__ import annotations
@@ -42,6 +42,8 @@ class Entry(NamedTuple):
         Name of the pass.
     time
         UTC of the frame, ISO 8601.
+    clock
+        Frame rate and time zone in the header of an EXR file (see `render.exr_clock`); "" for other files.
     """
 
     path: str
@@ -52,6 +54,7 @@ class Entry(NamedTuple):
     name: str
     frame: int
     time: str
+    clock: str = ""
 
     def is_intact(self, out: Path) -> bool:
         """Check that the file exists with this content."""
@@ -66,6 +69,8 @@ class Entry(NamedTuple):
         found = self._asdict()
         del found["path"], found["fingerprint"]
         found["pass"] = found.pop("name")
+        if not found["clock"]:
+            del found["clock"]
         return found
 
 
