@@ -20,6 +20,8 @@ GERMAN = {
     "Copy details of last message": "Einzelheiten der letzten Meldung kopieren",
     "Draw camera path": "Kamerapfad zeichnen",
     "Esc pauses the queue": "Esc hält die Warteschlange an",
+    "Export": "Export",
+    "Export for other programs": "Für andere Programme exportieren",
     "Export scene file": "Szenendatei exportieren",
     "F12 writes files": "F12 schreibt Dateien",
     "Go to place or time": "Zu Ort oder Zeit gehen",

@@ -5,7 +5,7 @@ from dataclasses import replace
 import bpy
 import pytest
 from firetwin.blender import compat, nodes, owned
-from firetwin.render import layers
+from firetwin.render import layers, regrade
 from firetwin.scene import build
 from firetwin.shot.light.sky import HAZE
 from firetwin.shot.shot import Shot
@@ -343,7 +343,8 @@ def test_two_scenes_do_not_disturb_each_other(shot, run, plain_ground):
     build.build(shot, first.scene)
     layers.build(shot.settings, first)
     uids = {uid for uid, block in our_blocks().items() if block != second.scene}
-    uids -= {second.root.session_uid}
+    shared = {regrade.group().session_uid}  # one group for all scenes of a file
+    uids -= {second.root.session_uid} | shared
     before = all_of(uids)
     build.build(hazy, second.scene)
     layers.build(hazy.settings, second)
@@ -354,7 +355,7 @@ def test_two_scenes_do_not_disturb_each_other(shot, run, plain_ground):
     layers.remove(second.scene)
     build.remove(second.scene)
     assert not differences(before, all_of(uids))
-    assert set(our_blocks()) == uids
+    assert set(our_blocks()) == uids | shared
 
 
 def test_what_an_artist_adds_to_our_own_scene_stays(scene, stage, shot, plain_looks):

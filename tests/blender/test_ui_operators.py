@@ -14,6 +14,7 @@ import pytest
 from bl_operators.presets import AddPresetBase
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 from firetwin.allocation import job as allocation_job
+from firetwin.export import job as export_job
 from firetwin.farm import submission
 from firetwin.jobs import assets, convert, render, render_blend, sample
 from firetwin.jobs.tiles import bounding_boxes
@@ -126,6 +127,7 @@ KEEPS = {
     "jump": {"moment": "2014-09-17T21:30:00Z"},
     "smoke_volumes": {"which": "range"},
     "go": {"text": "38.84 -120.55"},
+    "export_to": {"to": "czml"},
     "render": {},
     "render_background": {},
     "queue": {"what": "pause"},
@@ -158,6 +160,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
+    monkeypatch.setattr(export_job, "run", lambda *_, **__: [])
     monkeypatch.setattr(webbrowser, "open", lambda url: True)
     monkeypatch.setattr(allocation_job, "suggest", lambda *_, **__: copy.deepcopy(ALLOCATION))
     monkeypatch.setattr(bounding_boxes, "run", lambda *_, **__: [BOX])

@@ -12,7 +12,9 @@ from firetwin_core import sensor
 NAMES = [
     name
     for name, each in passes.known().items()
-    if not passes.compares(name) and not isinstance(each, passes.MarchedPass)  # this scene's smoke is puffs
+    if not passes.compares(name)
+    and not isinstance(each, passes.MarchedPass)  # this scene's smoke is puffs
+    and "forecast" not in each.aspects  # and has no ensemble
 ]
 
 SCENE = """\
