@@ -55,45 +55,32 @@ def moment(text: str) -> datetime:
 
 def factor(text: str) -> float:
     """Convert to a number from 0.1 to 3."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.1 <= value <= 3.0:
-        raise argparse.ArgumentTypeError(f"must be a number from 0.1 to 3, not {text!r}")
-    return value
+    return _number(text, 0.1, 3.0, "a number from 0.1 to 3")
 
 
 def hours(text: str) -> float:
     """Convert to a number of hours above 0, up to a year."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0.0 < value <= 8784.0:
-        raise argparse.ArgumentTypeError(f"must be a number of hours above 0, up to 8784, not {text!r}")
-    return value
+    return _number(text, math.ulp(0.0), 8784.0, "a number of hours above 0, up to 8784")
 
 
 def longitude(text: str) -> float:
     """Convert to a longitude, degrees east."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not -360.0 <= value <= 360.0:
-        raise argparse.ArgumentTypeError(f"must be a number of degrees east from -360 to 360, not {text!r}")
-    return value
+    return _number(text, -360.0, 360.0, "a number of degrees east from -360 to 360")
 
 
 def undulation(text: str) -> float:
     """Convert to a height of the geoid above the ellipsoid, m."""
+    return _number(text, -200.0, 200.0, "a number of metres from -200 to 200")
+
+
+def _number(text: str, low: float, high: float, meaning: str) -> float:
+    """Convert to a number from `low` to `high`."""
     try:
         value = float(text)
     except ValueError:
         value = math.nan
-    if not -200.0 <= value <= 200.0:
-        raise argparse.ArgumentTypeError(f"must be a number of metres from -200 to 200, not {text!r}")
+    if not low <= value <= high:
+        raise argparse.ArgumentTypeError(f"must be {meaning}, not {text!r}")
     return value
 
 

@@ -326,7 +326,7 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument(
         "--preset",
         choices=types.OUTPUT_PRESETS,
-        help="settings of EXR files and films for post-production (those of the scene file)",
+        help="settings of EXR files and films for post-production (from the scene file)",
     )
     render.add_argument("--json", action="store_true", help="write JSON: files and memory")
     tiles.add_access(render)

@@ -88,13 +88,12 @@ def gather(folder: Path, latitude: Sequence[float], longitude: Sequence[float]) 
     arrival = found.at(np.maximum(rows, 0), np.maximum(columns, 0))[counted].astype(np.float64)
     arrival[:, (rows < 0) | (columns < 0)] = np.nan
     moments = np.linspace(0.0, found.horizon, _TIMES)
-    depth = statistics.depths(found, found.horizon)[counted]
     chosen = choice.choose(found)
     order = counted.tolist()
     return Forecast(
         found, arrival, [found.members[index].name for index in order], moments,
         statistics.burned_areas(found, moments)[counted],
-        order.index(chosen.typical), order.index(chosen.outlier), depth,
+        order.index(chosen.typical), order.index(chosen.outlier), chosen.depth[counted],
     )  # fmt: skip
 
 
@@ -189,7 +188,7 @@ def _row(point: Point, arrival: NDArray[np.float64], found: Forecast, zone: str)
 def _by(known: NDArray[np.float64], share: float, found: Forecast, zone: str) -> str:
     """Format the time by which a share of the members has burned a place (see `statistics.quantiles`)."""
     ordered = np.sort(known)
-    time = ordered[max(1, int(np.ceil(round(share * len(ordered), 9)))) - 1]
+    time = ordered[statistics.members_of_share(share, len(ordered)) - 1]
     if np.isinf(time):
         return "not within"
     return "burned before" if time <= 0.0 else _clock(found, float(time), zone)
@@ -199,7 +198,7 @@ def _share(share: float, count: int) -> str:
     """Name a share of the members: ``2 of 20``, or percent of many."""
     if count >= PERCENT_FROM:
         return f"{share:.0%} of members"
-    return f"{max(1, int(np.ceil(round(share * count, 9))))} of {count}"
+    return f"{statistics.members_of_share(share, count)} of {count}"
 
 
 def _clock(found: Forecast, time: float, zone: str) -> str:

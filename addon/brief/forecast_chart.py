@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from datetime import timedelta
 from typing import TYPE_CHECKING
 
@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..html_text import quote
-from ..run import areas
-from ..run.arrival_grid import ArrivalGrid
-from ..run.front import Reach
+from ..run import areas, fronts
+from ..run.ensemble import places
+from ..run.ensemble.ensemble import Ensemble
 from ..run.score.measure import Measure
 from . import curve
 
@@ -52,7 +52,7 @@ def outlines(found: Forecast, points: Sequence[Point], mark: str) -> str:
     burned = np.stack([whole.arrival(int(index)) <= whole.horizon for index in counted])
     order = np.argsort(-found.depth, kind="stable")
     half = burned[order[: (len(order) + 1) // 2]]
-    place = _Place(whole.latitude, whole.longitude, burned.any(0))
+    place = _Place(whole, burned.any(0))
     shapes = [
         f'<path class="band" fill-rule="evenodd" d="{place.path(part)}"/>'
         for part in (half.any(0), half.all(0))
@@ -79,10 +79,9 @@ def outlines(found: Forecast, points: Sequence[Point], mark: str) -> str:
 class _Place:
     """Map of the grid around the burned cells: equirectangular, north at the top."""
 
-    def __init__(
-        self, latitude: NDArray[np.float64], longitude: NDArray[np.float64], burned: NDArray[np.bool_]
-    ) -> None:
-        self.grid = ArrivalGrid(latitude, longitude, np.empty(burned.shape))
+    def __init__(self, ensemble: Ensemble, burned: NDArray[np.bool_]) -> None:
+        self.ensemble = ensemble
+        latitude, longitude = ensemble.latitude, ensemble.longitude
         rows, columns = (np.flatnonzero(burned.any(axis)) for axis in (1, 0))
         north, east = areas.metres_per_degree(float(latitude.mean()))
         y = latitude[[rows[0], rows[-1]]]
@@ -98,10 +97,14 @@ class _Place:
 
     def path(self, burned: NDArray[np.bool_]) -> str:
         """Return the outline of burned cells (ny, nx) as path data of closed rings."""
-        arrival = np.where(burned, 0.0, np.nan)
-        latitude, longitude, after = Reach(ArrivalGrid(*self._axes(), self._upright(arrival))).line(0.5)
-        x, y = (longitude - self.left) * self.east, (self.top - latitude) * self.north
-        return "".join(_rings(x, y, after))
+        fire = places.reach(self.ensemble, np.where(burned, 0.0, np.nan))
+        data = ""
+        for line in fronts.trace(fire, 0.5):
+            x, y = (line[:-1, 0] - self.left) * self.east, (self.top - line[:-1, 1]) * self.north
+            points = _thinned(zip(np.round(x, 1).tolist(), np.round(y, 1).tolist(), strict=True))
+            if len(points) > 2:
+                data += "M" + "L".join(f"{px:g} {py:g}" for px, py in points) + "Z"
+        return data
 
     def spot(self, point: Point) -> Iterator[str]:
         """Draw a point with its name."""
@@ -117,31 +120,14 @@ class _Place:
         yield f'<line class="tick" x1="10" x2="{end:.1f}" y1="{y:.1f}" y2="{y:.1f}"/>'
         yield f'<text x="10" y="{y - 6:.1f}">{length / 1000:g} km ({length / 1609.344:.1f} mi)</text>'
 
-    def _axes(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        return np.sort(self.grid.latitude), np.sort(self.grid.longitude)
 
-    def _upright(self, values: NDArray) -> NDArray:
-        """Reorder rows and columns (ny, nx) to ascending axes."""
-        south, west = np.argsort(self.grid.latitude), np.argsort(self.grid.longitude)
-        return values[south][:, west]
-
-
-def _rings(x: NDArray, y: NDArray, after: NDArray[np.int64]) -> Iterator[str]:
-    """Yield path data of each closed ring; points that follow each other within a pixel are left out."""
-    left = np.ones(len(x), bool)
-    for first in range(len(x)):
-        if not left[first]:
-            continue
-        points: list[tuple[float, float]] = []
-        index = first
-        while left[index]:
-            left[index] = False
-            here = (round(float(x[index]), 1), round(float(y[index]), 1))
-            if not points or abs(here[0] - points[-1][0]) + abs(here[1] - points[-1][1]) >= 1.5:
-                points.append(here)
-            index = int(after[index])
-        if len(points) > 2:
-            yield "M" + "L".join(f"{px:g} {py:g}" for px, py in points) + "Z"
+def _thinned(points: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Leave out points of a line that are within a pixel of the last kept one."""
+    kept: list[tuple[float, float]] = []
+    for x, y in points:
+        if not kept or abs(x - kept[-1][0]) + abs(y - kept[-1][1]) >= 1.5:
+            kept.append((x, y))
+    return kept
 
 
 def fan(found: Forecast, zone: str, unit: Measure) -> str:

@@ -94,7 +94,7 @@ def _tileset(path: Path, above: Path | None) -> list[Path]:
 
 
 def _add(found: set[Path], paths: Iterable[Path], folder: Path) -> list[Path]:
-    """Add files to those of the tileset in a folder; returns the new documents.
+    """Add files to a tileset in a folder; return the new documents.
 
     Raises
     ------

@@ -55,18 +55,8 @@ def run(
     files = paths if member else gathered(paths)
     Options.of(start, at, projection, interval, files, name, zone)
     write.check(out)
-    task = {
-        "paths": [str(path.absolute()) for path in files],
-        "out": str(out.absolute()),
-        "options": [start, at, projection, interval, name, zone],
-        "member": member,
-    }
-    try:
-        worker.run(
-            f"{__name__}:in_process", task, progress, stop=stop, tell=tell, blender=False, patience=PATIENCE
-        )
-    except worker.EndedError as error:
-        raise Error(f"{paths[0]}: reading it {error}; the file is most likely damaged") from None
+    options = [start, at, projection, interval, name, zone]
+    _run("in_process", files, out, options, progress, tell, stop, member=member)
     return out
 
 
@@ -105,19 +95,34 @@ def run_members(
             raise input_error(path, "there is no such file or folder; check the path")
     Options.of(start, at, projection, 0.0, [], name, zone)
     write.check(out)
-    task = {
-        "paths": [str(path.absolute()) for path in paths],
-        "out": str(out.absolute()),
-        "options": [start, at, projection, horizon, name, zone],
-    }
-    try:
-        worker.run(
-            f"{__name__}:members_in_process", task, progress, stop=stop, tell=tell, blender=False,
-            patience=PATIENCE,
-        )  # fmt: skip
-    except worker.EndedError as error:
-        raise Error(f"{paths[0]}: reading it {error}; a file is most likely damaged") from None
+    options = [start, at, projection, horizon, name, zone]
+    _run("members_in_process", paths, out, options, progress, tell, stop)
     return out
+
+
+def _run(
+    function: str,
+    paths: list[Path],
+    out: Path,
+    options: list,
+    progress: Progress,
+    tell: MessageCallback,
+    stop: worker.Stop | None,
+    **more: str,
+) -> None:
+    """Call a function of this module in a worker process, with paths, output, options and `more`.
+
+    Raises
+    ------
+    Error
+        The process ended in another way than by an error: a file is most likely damaged.
+    """
+    task = {"paths": [str(path.absolute()) for path in paths], "out": str(out.absolute()), "options": options}
+    called = f"{__name__}:{function}"
+    try:
+        worker.run(called, task | more, progress, stop=stop, tell=tell, blender=False, patience=PATIENCE)
+    except worker.EndedError as error:
+        raise Error(f"{paths[0]}: reading it {error}; the file is most likely damaged") from None
 
 
 def members_in_process(

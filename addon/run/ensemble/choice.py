@@ -14,7 +14,7 @@ MOST_LINES = 15
 """Members that a reader can tell apart on a map (Liu et al., 2019: a few that spread), plus the shown one."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Choice:
     """Indices of members, chosen by their burned areas at the horizon.
 
@@ -26,20 +26,30 @@ class Choice:
         By burned area.
     outlier
         Least deep member.
+    area, depth
+        (m,) burned areas, m2, and epsilon inclusion depths; NaN for members that end earlier.
     """
 
     typical: int
     smallest: int
     largest: int
     outlier: int
+    area: NDArray[np.float64]
+    depth: NDArray[np.float64]
 
 
 def choose(ensemble: Ensemble) -> Choice:
     """Choose members by their burned areas at the horizon; of equal ones, the first."""
     area = burned_areas(ensemble, [ensemble.horizon])[:, 0]
-    depth = np.round(depths(ensemble, ensemble.horizon), 6)  # sums of areas are rounded
+    depth = depths(ensemble, ensemble.horizon)
+    rounded = np.round(depth, 6)  # sums of areas have rounding errors
     return Choice(
-        int(np.nanargmax(depth)), int(np.nanargmin(area)), int(np.nanargmax(area)), int(np.nanargmin(depth))
+        typical=int(np.nanargmax(rounded)),
+        smallest=int(np.nanargmin(area)),
+        largest=int(np.nanargmax(area)),
+        outlier=int(np.nanargmin(rounded)),
+        area=area,
+        depth=depth,
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 import tomllib
@@ -15,6 +14,7 @@ from typing import Any, NoReturn
 from ...errors import InputError, input_error, reading
 from ...files import check_text_size
 from ..models.model import LONGEST
+from ..models.write import toml_text
 
 MANIFEST = "ensemble.toml"
 MOST = 10_000  # members
@@ -159,20 +159,20 @@ def text(manifest: Manifest) -> str:
         "zone": manifest.zone,
         "source": manifest.source,
     }
-    lines = [f"{key} = {_quoted(value)}" for key, value in head.items() if value]
+    lines = [f"{key} = {toml_text(value)}" for key, value in head.items() if value]
     if manifest.issued:
         lines.append(f"issued = {manifest.issued.astimezone(UTC):%Y-%m-%dT%H:%M:%S.%f}Z")
     lines.append(f"horizon_s = {float(manifest.horizon)!r}")
     if manifest.synthetic:
         lines.append("synthetic = true")
     for member in manifest.members:
-        lines += ["", "[[member]]", f"name = {_quoted(member.name)}", f"weight = {float(member.weight)!r}"]
+        lines += ["", "[[member]]", f"name = {toml_text(member.name)}", f"weight = {float(member.weight)!r}"]
         if math.isfinite(member.end):
             lines.append(f"end_s = {float(member.end)!r}")
         if member.run is not None:
-            lines.append(f"run = {_quoted(member.run.as_posix())}")
+            lines.append(f"run = {toml_text(member.run.as_posix())}")
     for each in manifest.left_out:
-        lines += ["", "[[left_out]]", f"name = {_quoted(each.name)}", f"reason = {_quoted(each.reason)}"]
+        lines += ["", "[[left_out]]", f"name = {toml_text(each.name)}", f"reason = {toml_text(each.reason)}"]
     return "\n".join(lines) + "\n"
 
 
@@ -185,7 +185,7 @@ class _Table:
         self.path, self.data, self.place = path, data, place
 
     def only(self, known: set[str]) -> None:
-        """Check that there is no unknown key."""
+        """Check that all keys are known."""
         if unknown := sorted(set(self.data) - known):
             self._wrong(f'has an unknown key "{unknown[0]}"; known are {", ".join(sorted(known))}')
 
@@ -262,8 +262,3 @@ def _syntax(path: Path, message: str) -> InputError:
         return input_error(path, f"is not TOML: {message}; correct it")
     line, column = int(found[1]), int(found[2])
     return input_error(path, f"is not TOML: {message[: found.start()]}; correct it", line=line, column=column)
-
-
-def _quoted(value: str) -> str:
-    """Encode a TOML string with JSON's escapes."""
-    return json.dumps("".join(each for each in value if each.isprintable()), ensure_ascii=False)

@@ -63,11 +63,16 @@ class Places:
         return self.inside & known[row, column]
 
     def _reach(self, member: int) -> Reach:
-        """Return the burned area of a member, on ascending axes."""
-        found, turn = self.ensemble, _ascending(self.ensemble)
-        times = found.arrival(member)[turn].astype(np.float64)
-        times[~np.isfinite(times)] = np.nan
-        return Reach(ArrivalGrid(found.latitude[turn[0]], found.longitude[turn[1]], times))
+        """Return the burned area of a member."""
+        return reach(self.ensemble, self.ensemble.arrival(member))
+
+
+def reach(ensemble: Ensemble, arrival: NDArray[np.floating]) -> Reach:
+    """Return the burned area by arrival times (ny, nx) on the grid of an ensemble, on ascending axes."""
+    turn = _ascending(ensemble)
+    times = arrival[turn].astype(np.float64)
+    times[~np.isfinite(times)] = np.nan
+    return Reach(ArrivalGrid(ensemble.latitude[turn[0]], ensemble.longitude[turn[1]], times))
 
 
 @functools.lru_cache(maxsize=_CACHED)

@@ -1,4 +1,4 @@
-"""Maps of burn probability: what each model means by them, and why none of them can burn in a film.
+"""Maps of burn probability: their meaning in each model, and the reason why none can burn in a film.
 
 A probability has four parts: of what, by when, given what, out of how many. File names say which model wrote
 a map; values do not.
@@ -22,9 +22,9 @@ class Meaning:
     name
         Pattern of the file name, without extension, in lower case.
     of
-        What the values are.
+        Meaning of the values.
     needs
-        What a forecast of members needs in its place.
+        Data for an ensemble in its place.
     """
 
     name: str

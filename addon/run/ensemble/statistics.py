@@ -93,12 +93,17 @@ def quantiles(ensemble: Ensemble, levels: ArrayLike) -> NDArray[np.float32]:
     return result
 
 
+def members_of_share(share: float, count: int) -> int:
+    """Return the least number of `count` members that are at least a share of them, 1 or more."""
+    return max(1, int(-(-Fraction(str(share)) * count // 1)))  # exact: 0.1 of 10 is one
+
+
 def _equal(values: NDArray[np.float32], levels: NDArray[np.float64]) -> NDArray[np.float32]:
     """Compute quantiles (k, cells) of values (cells, m) of equal weight, without NaN."""
     count = values.shape[1]
-    picks = [-(-Fraction(str(level)) * count // 1) - 1 for level in levels]  # exact: 0.1 of 10 is the first
-    values.partition(sorted({int(pick) for pick in picks}), axis=1)
-    return values[:, [int(pick) for pick in picks]].T
+    picks = [members_of_share(float(level), count) - 1 for level in levels]
+    values.partition(sorted({*picks}), axis=1)
+    return values[:, picks].T
 
 
 def _weighted(

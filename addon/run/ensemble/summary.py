@@ -11,14 +11,12 @@ from .. import times
 from .choice import choose
 from .ensemble import Ensemble
 from .manifest import KINDS
-from .statistics import burned_areas, depths
 
 _HECTARE = 1e4  # m2
 
 
 def gather(found: Ensemble) -> dict[str, Any]:
     """Gather the facts that `firetwin info` shows of an ensemble: s, m2."""
-    area, depth = burned_areas(found, [found.horizon])[:, 0], depths(found, found.horizon)
     chosen = choose(found)
     return {
         "name": found.manifest.name,
@@ -37,8 +35,8 @@ def gather(found: Ensemble) -> dict[str, Any]:
                 "name": member.name,
                 "weight": member.weight,
                 "end": float(min(member.end, found.horizon)),
-                "area": _number(area[index]),
-                "depth": _number(depth[index]),
+                "area": _number(chosen.area[index]),
+                "depth": _number(chosen.depth[index]),
             }
             for index, member in enumerate(found.members)
         ],

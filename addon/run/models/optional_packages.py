@@ -15,8 +15,8 @@ ALL = "netCDF4 pyproj pyshp rasterio zarr"
 def package(name: str) -> ModuleType:
     """Import an optional package.
 
-    HDF5 is told not to lock files before it loads: a lock of a reader makes the next write of a running model
-    fail (HDF5_USE_FILE_LOCKING in the HDF5 user guide). A value that the user has set stays.
+    HDF5 reads the variable HDF5_USE_FILE_LOCKING when it loads. Locks are disabled, unless the user has set
+    it: the lock of a reader makes the next write of a running model fail.
 
     Raises
     ------

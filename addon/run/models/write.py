@@ -211,25 +211,25 @@ def _room(out: Path, need: int) -> None:
 def description(model: Model, inputs: str) -> str:
     """Write the text of run.toml; `inputs` as in `write`."""
     lines = [
-        f"name = {_text(model.name)}",
+        f"name = {toml_text(model.name)}",
         f"start = {model.start:%Y-%m-%dT%H:%M:%S.%f}Z",
         f"times_s = [{', '.join(repr(float(time)) for time in model.times)}]",
         'vertical = "orthometric"',
     ]
     if model.zone:
-        lines.append(f"zone = {_text(model.zone)}")
+        lines.append(f"zone = {toml_text(model.zone)}")
     if model.mean_s is not None:
         lines.append(f"mean_s = {float(model.mean_s)!r}")
     lines += [
         "",
         "[source]",
-        f"model = {_text(model.source)}",
-        f"version = {_text(model.version or 'not said')}",
-        f"projection = {_text(' '.join(model.projection.split()) or 'latitude and longitude')}",
-        f"files = [{', '.join(_text(path.name) for path in model.files)}]",
-        f"inputs = {_text(inputs)}",
+        f"model = {toml_text(model.source)}",
+        f"version = {toml_text(model.version or 'not said')}",
+        f"projection = {toml_text(' '.join(model.projection.split()) or 'latitude and longitude')}",
+        f"files = [{', '.join(toml_text(path.name) for path in model.files)}]",
+        f"inputs = {toml_text(inputs)}",
         "assumptions = [",
-        *(f"  {_text(text)}," for text in [*model.assumptions, *moved(model)]),
+        *(f"  {toml_text(text)}," for text in [*model.assumptions, *moved(model)]),
         "]",
     ]
     return "\n".join(lines) + "\n"
@@ -243,6 +243,6 @@ def moved(model: Model) -> list[str]:
     return [text for grid, text in said.items() if grid.placed.error]
 
 
-def _text(value: str) -> str:
+def toml_text(value: str) -> str:
     """Encode a TOML string with JSON's escapes."""
     return json.dumps("".join(each for each in value if each.isprintable()), ensure_ascii=False)

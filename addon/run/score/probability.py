@@ -39,7 +39,7 @@ def crps(members: Array, observed: Array, fair: bool = False) -> Array:
 class Brier:
     """Brier score and its parts: score = reliability - resolution + uncertainty.
 
-    The parts are those of the forecast's own values, so that the sum is exact.
+    Each probability that occurs has a bin, so the sum is exact.
     """
 
     score: float

@@ -20,7 +20,7 @@ class OutputPreset:
     values
         Values of `[render]`.
     passes
-        Added to cameras that record `rgb`; panoramas omit those of a single view.
+        Passes for cameras that record `rgb`; panoramas omit passes of a single view.
     slate
         Put a slate with the name of the scene before review films that have none.
     """

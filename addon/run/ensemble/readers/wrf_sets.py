@@ -1,7 +1,7 @@
 """Reader of WRF-SFIRE sets in one netCDF file: FIRE_AREA (ens, Time, y, x), FXLONG and FXLAT.
 
-Names as in wirc-sjsu/Fire_Risk_Exercise. A member that ended early is padded with NaN, which is no unburned
-cell: it ends at its last time with values.
+Names as in wirc-sjsu/Fire_Risk_Exercise. A member that ended early is padded with NaN. This
+does not mean unburned: the member ends at its last time with values.
 """
 
 from __future__ import annotations
