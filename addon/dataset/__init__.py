@@ -1,0 +1,1 @@
+"""Training data: labelled samples of many short scenes, from one plan."""
