@@ -1,1 +1,1 @@
-"""Training data: labelled samples of many short scenes, from one plan."""
+"""Training data: labelled pictures of fires for detectors, drawn from a plan, with splits and a card."""
