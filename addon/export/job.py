@@ -11,10 +11,10 @@ from ..jobs.worker import Stop
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot.schema.frame_list import FrameList
 from ..shot.source import ShotSource
+from ..staging import staging
 from . import formats, georeference
 from .georeference import Georeference
 from .request import ExportRequest
-from .staging import staging
 
 _HEIGHTS = ("export", 'firetwin export with terrain.height_source = "tiles"')
 

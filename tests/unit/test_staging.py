@@ -1,10 +1,10 @@
-"""Files of an export appear complete, or not at all."""
+"""Files of a folder appear complete, or not at all."""
 
 import errno
 
 import pytest
 from firetwin.errors import FullDiskError
-from firetwin.export.staging import staging
+from firetwin.staging import staging
 
 
 def fill(folder, text):

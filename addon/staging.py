@@ -1,4 +1,4 @@
-"""Atomic writes of an export: files get their names after all of them are on the disk."""
+"""Atomic writes of several files: they get their names after all of them are on the disk."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import InputError, input_error, writing
+from .errors import InputError, input_error, writing
 
 
 @contextmanager
