@@ -1,7 +1,7 @@
 """Camera poses in the conventions of other programs, from our camera-to-world matrices.
 
-Ours: x right, y up, z backwards (OpenGL, Blender, nerfstudio); the centre of the first pixel is (0.5, 0.5), as
-in COLMAP and nerfstudio. OpenCV: x right, y down, z forwards; the centre of the first pixel is (0, 0).
+Ours: x right, y up, z backwards (OpenGL, Blender, nerfstudio); the first pixel has its centre at (0.5, 0.5),
+as in COLMAP and nerfstudio. OpenCV: x right, y down, z forwards; the first pixel has its centre at (0, 0).
 """
 
 from __future__ import annotations
