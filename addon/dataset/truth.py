@@ -32,15 +32,15 @@ class Category:
     ----------
     id
         Number in all formats, from 1: many trainers reserve 0 for the background.
-    thing
-        True if it has instances with boxes.
+    has_instances
+        True if its instances have boxes; a class of the background has none.
     value
         Value in the class map (see `shot.passes.masks`).
     """
 
     id: int
     name: str
-    thing: bool
+    has_instances: bool
     value: int
 
 
@@ -69,7 +69,7 @@ class Annotation:
     box, pixels
         Box and number of the visible pixels.
     amodal_box, amodal_pixels
-        The same without smoke in front of it. Terrain and trees hide in both. Of smoke: as visible.
+        The same without the smoke in front of it; terrain and trees still hide it. Smoke: as visible.
     visible_fraction
         pixels / amodal_pixels.
     cut_by_edge
@@ -77,9 +77,9 @@ class Annotation:
     band
         Spectral band of the label: a plume that is visible in green light can be clear in the infrared.
     boxes_by_alpha
-        Of smoke: boxes of the pixels whose alpha (1 - transmittance) is at least the key, such as "0.2".
+        Smoke: boxes of the pixels whose alpha (1 - transmittance) is at least the key, such as "0.2".
     contrast
-        Of smoke: largest mean difference from the picture without smoke, 0..1 of full scale.
+        Smoke: largest mean difference from the picture without smoke, 0..1 of full scale.
     distance_m
         Distance from the camera along the line of sight, m: the median over the pixels.
     nearest_m
@@ -87,7 +87,7 @@ class Annotation:
     top_above_ground_m, top_above_sea_m
         Height of the highest point that the picture shows, m above the ground below it and above sea level.
     ground_area_m2
-        Of fire: area of the ground that the pixels cover, m2, measured in the horizontal plane.
+        Fire: area of the ground that the pixels cover, m2, measured in the horizontal plane.
     max_temperature_k
         Highest brightness temperature of the pixels in the thermal band, K.
     seconds_since_ignition
@@ -163,7 +163,7 @@ class Truth:
     Attributes
     ----------
     index
-        Number of the sample in its data set, from 0.
+        Number of the sample in its data set, from 1.
     utc
         Time of the picture, ISO 8601.
     model_time_s

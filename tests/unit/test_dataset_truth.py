@@ -77,7 +77,7 @@ def test_a_file_of_another_version_is_named(tmp_path):
 def test_categories_begin_at_one_and_cover_the_class_map():
     assert [each.id for each in truth.CATEGORIES] == list(range(1, 8))
     assert sorted(each.value for each in truth.CATEGORIES) == list(range(7))
-    assert [each.name for each in truth.CATEGORIES if each.thing] == ["fire", "smoke"]
+    assert [each.name for each in truth.CATEGORIES if each.has_instances] == ["fire", "smoke"]
 
 
 def test_negatives_have_no_instances_of_any_size():
