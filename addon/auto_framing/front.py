@@ -115,15 +115,14 @@ def some(chosen: NDArray[np.int64], most: int) -> NDArray[np.int64]:
 def find_front(shot: Shot) -> Front:
     """Sample the front of a shot."""
     ground, frames = shot.bare_ground, shot.frames
-    near = box(ground.arrival < NEVER, more=2)
     burned = ground.arrival <= max(frames.last, frames.first + 1.0)
     within = box(burned)
-    if near is None or within is None:
+    if within is None:
         return _nothing(shot)
     inside = ground.arrival[burned]
     inside = inside[inside >= frames.first]
     times = np.quantile(inside, _QUANTILES) if len(inside) else np.array([frames.middle])
-    samples = [_at(ground, near, float(time)) for time in times]
+    samples = [front_at(ground, float(time)) for time in times]
     moment = np.repeat(np.arange(len(times)), [len(part[0]) for part in samples])
     index = np.clip(np.round((times - frames.first) / max(frames.step, 1.0e-9)), 0, frames.count - 1)
     point, velocity = (np.concatenate(parts) for parts in zip(*samples, strict=True))
@@ -155,8 +154,11 @@ def _corners(ground: Terrain, rows: slice, columns: slice) -> tuple[Array, Array
     return place[:, :2].min(axis=0), place[:, :2].max(axis=0)
 
 
-def _at(ground: Terrain, near: tuple[slice, slice], time: float) -> tuple[Array, Array]:
-    """Positions and velocities of the cells at the front at a model time, or nearest in time."""
+def front_at(ground: Terrain, time: float) -> tuple[Array, Array]:
+    """Find positions (n, 3) and velocities (n, 2) of the cells at the front at a model time, or nearest to it."""
+    near = box(ground.arrival < NEVER, more=2)
+    if near is None:
+        return np.empty((0, 3)), np.empty((0, 2))
     arrival, burn_time = ground.arrival[near], ground.burn_time[near]
     row, column = np.nonzero(arrival < NEVER)
     crossing = burning.crossing(np.where(arrival < NEVER, arrival, np.nan), row, column)

@@ -63,7 +63,8 @@ class Draw:
     split
         "train", "val" or "test".
     moment
-        Number of the run's model time, from 0. Samples of a run with equal moments have equal `time`.
+        Number of the run's model time, from 0, of a sample with fire. Samples of a run with equal moments
+        have equal `time`. -1 is before the first fire, -2 after the last one.
     time
         Model time, s. It can lie outside of the run's times if the sample has no fire.
     since_ignition
@@ -78,8 +79,15 @@ class Draw:
         Distance from the camera to the target, m.
     sun_elevation, sun_azimuth
         Direction to the sun, degrees; azimuth clockwise from north. They do not follow from `utc`.
+    visibility
+        Meteorological visibility of the air without smoke, km; through fog or dust for these kinds.
+    cloud_cover
+        Share of the sky with clouds, 0..1.
+    lamps
+        Number of lamps on the ground; 0 except for the kind "night_lights".
     values
-        All drawn values by name, in the units of `distributions.VALUES`.
+        All drawn values that the sample uses, by name, in the units of `distributions.VALUES`. Each sample
+        has exposure, read_noise, full_well, blur, jpeg_quality, netd and saturation of the sensor.
     """
 
     seed: int
@@ -101,6 +109,9 @@ class Draw:
     distance: float
     sun_elevation: float
     sun_azimuth: float
+    visibility: float
+    cloud_cover: float
+    lamps: int
     values: Mapping[str, float]
 
     @property

@@ -1,0 +1,129 @@
+"""Run of a plan as a place for cameras: ground, front and wind at any model time. Needs no Blender."""
+
+from __future__ import annotations
+
+import functools
+from functools import cached_property
+
+import numpy as np
+from firetwin_core import lod
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ..auto_framing.front import front_at, some
+from ..run import burning, readers
+from ..shot.settings import Settings, scene_file
+from ..shot.terrain import elevation
+from ..shot.terrain.terrain import NEVER, Terrain
+from .plan import PlanRun
+
+_POINTS = 160  # front points at most per time
+_RADIUS = 1.0  # m, radius of a front point
+_CANOPY = 0.01  # kg/m2, canopy fuel from which there are trees
+_TREE, _OPEN = 35.0, 5.0  # m, least height of mobile cameras above ground with trees and without (assumed)
+
+Array = NDArray[np.float64]
+
+
+def settings_of(run: PlanRun) -> Settings:
+    """Read the scene file of a run, or make default settings for a run folder.
+
+    Raises
+    ------
+    InputError
+        The scene file cannot be read.
+    """
+    if run.run.suffix == ".toml":
+        return scene_file.read(run.run)
+    return Settings(path=run.run.parent / f"{run.name}.toml", run=run.run)
+
+
+class RunScene:
+    """Ground, front and wind of a run.
+
+    Attributes
+    ----------
+    settings
+        Settings of the run's scene file.
+    run
+        The run.
+    ground
+        Terrain without detail near cameras.
+    """
+
+    def __init__(self, planned: PlanRun) -> None:
+        self.settings = settings_of(planned)
+        self.run: Run = readers.open(self.settings.run)
+        self._arrival = self.run.fuel_arrival_time()
+        relief = elevation.resolve(self.settings, self.run)
+        self.ground = Terrain(self.settings, self.run, self._arrival, relief)
+
+    @cached_property
+    def ignition(self) -> float:
+        """Time of the first fire, s; it can precede the run's first time. NaN without fire."""
+        return float(np.nanmin(self._arrival)) if np.isfinite(self._arrival).any() else np.nan
+
+    @cached_property
+    def window(self) -> tuple[float, float]:
+        """First and last model time of the run at which fire can burn, s."""
+        first, last = float(self.run.times[0]), float(self.run.times[-1])
+        return min(max(self.ignition, first), last), last
+
+    @functools.lru_cache(maxsize=64)  # noqa: B019 (as long as the scene)
+    def front(self, time: float) -> Array:
+        """Front points (n, 3) at a model time, or nearest to it, m in the run's local frame; 160 at most."""
+        points = front_at(self.ground, time)[0]
+        return points[some(np.arange(len(points)), _POINTS)]
+
+    @functools.lru_cache(maxsize=64)  # noqa: B019
+    def upwind(self, time: float) -> float:
+        """Bearing from which the wind near the fire blows, degrees; 0 without wind."""
+        east, north = burning.wind_at(self.run, np.array([time]), self._surroundings)[0]
+        return float(np.degrees(np.arctan2(-east, -north))) % 360.0
+
+    @cached_property
+    def _surroundings(self) -> tuple[slice, slice]:
+        return burning.surroundings(self.run, self._arrival)
+
+    @cached_property
+    def burned(self) -> Array:
+        """Points (n, 3) of the ground that burns in the run, m; 160 at most."""
+        row, column = np.nonzero(self.ground.arrival < NEVER)
+        chosen = some(np.arange(len(row)), _POINTS)
+        return self.ground.point(*self.ground.places(row[chosen], column[chosen]))
+
+    def has_ground(self, position: Array) -> bool:
+        """Return whether the terrain, with its apron, extends below a point (3,)."""
+        latitude, longitude, _ = (float(part[0]) for part in self.ground.frame.reverse(position[None]))
+        fields = self.ground.fields
+        inside = fields.latitude[0] < latitude < fields.latitude[-1]
+        return bool(inside and fields.longitude[0] < longitude < fields.longitude[-1])
+
+    def height_above_ground(self, position: Array) -> float:
+        """Height of a point (3,) above the ground, m."""
+        return float(position[2] - self.ground.up(position[0], position[1])[0])
+
+    def clearance(self, position: Array) -> float:
+        """Least height of a mobile camera above the ground below a point (3,), m."""
+        canopy = self.ground.sample(self.ground.fields.canopy_fuel, position[0], position[1])
+        return _TREE if float(canopy[0]) > _CANOPY else _OPEN
+
+    def visible(self, points: Array, position: Array, rotation: Array, half: tuple[float, float]) -> Array:
+        """Return which points (n, 3) are in the picture and not hidden by terrain (n,).
+
+        Parameters
+        ----------
+        position, rotation
+            (3,) m and (3, 3) of the camera, which is above the ground.
+        half
+            Tangents of half the horizontal and vertical angle of view.
+        """
+        view = lod.ViewSet(
+            position[None], rotation[None], np.array([half]), above_terrain=True, occluder=self._occluder
+        )
+        return lod.visible_mask(points, np.full(len(points), _RADIUS), view)
+
+    @cached_property
+    def _occluder(self) -> lod.Occluder:
+        margin = self.ground.fields.margin
+        return lod.Occluder(self.ground.floor()[margin : -margin or None, margin : -margin or None])
