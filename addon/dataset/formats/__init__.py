@@ -1,0 +1,95 @@
+"""Formats of data sets: a module of this package each, with `write(set_folder, samples, out)`.
+
+`set_folder` has the files of the samples, and `out` is an empty folder, whose content moves to `set_folder`
+after all of it is written (see `staging`). So paths in its files are relative to `set_folder`.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ...errors import UsageError
+from ...staging import staging
+
+if TYPE_CHECKING:
+    from ..truth import Truth
+
+    Writer = Callable[[Path, Sequence[Truth], Path], None]
+
+
+@dataclass(frozen=True)
+class Format:
+    """A format of data sets.
+
+    Attributes
+    ----------
+    help
+        Content and place of the files, in one line.
+    package
+        Package that the format needs; "" if it needs none.
+    """
+
+    help: str
+    package: str = ""
+
+
+FORMATS = {
+    "coco": Format("annotations/: COCO instances and panoptic segments of each split"),
+    "yolo": Format("labels/, data.yaml and lists of pictures: YOLO boxes"),
+    "voc": Format("voc/: Pascal VOC boxes and lists of pictures"),
+    "hf": Format("imagefolder/: Hugging Face ImageFolder, metadata.jsonl of each split"),
+    "parquet": Format("parquet/: Hugging Face rows with pictures and boxes", "pyarrow"),
+    "webdataset": Format("webdataset/: tar files of about 1 GB, with all files of each sample"),
+    "nerfstudio": Format("nerfstudio/: transforms.json of each run"),
+    "colmap": Format("colmap/: COLMAP text model of each run, without points"),
+    "tum": Format("tum/: TUM trajectory of each run, with the number of the sample as its time"),
+}
+DEFAULT = ("coco", "yolo")
+
+
+def names(text: str) -> tuple[str, ...]:
+    """Split a list of formats such as ``coco,yolo``; "all" stands for each that this installation can write.
+
+    Raises
+    ------
+    UsageError
+        A format is unknown, or its package is missing.
+    """
+    if text == "all":
+        return tuple(name for name in FORMATS if _is_usable(name))
+    found = tuple(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
+    for name in found:
+        if name not in FORMATS:
+            raise UsageError(f'there is no format "{name}"; choose from {", ".join(FORMATS)}, all')
+        if not _is_usable(name):
+            package = FORMATS[name].package
+            raise UsageError(f"the format {name} needs {package}; install it with: pip install {package}")
+    return found
+
+
+def writer(name: str) -> Writer:
+    """Return the function that writes a format."""
+    return importlib.import_module(f".{name}", __package__).write
+
+
+def write(set_folder: Path, samples: Sequence[Truth], formats: Iterable[str]) -> None:
+    """Write the labels of the samples in each format; files of a format appear when it is complete.
+
+    Raises
+    ------
+    InputError
+        The disk is full, or a file of a sample is missing or damaged.
+    """
+    for name in formats:
+        with staging(set_folder) as out:
+            writer(name)(set_folder, samples, out)
+
+
+def _is_usable(name: str) -> bool:
+    package = FORMATS[name].package
+    return not package or importlib.util.find_spec(package) is not None

@@ -1,0 +1,108 @@
+"""Facts that several formats need: splits, runs, names of files, and boxes."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..truth import CATEGORIES, Annotation, Box, Truth
+
+THINGS = tuple(each for each in CATEGORIES if each.has_instances)
+"""Categories with boxes; their position is the class index of formats that count from 0."""
+UNSPLIT = "all"
+"""Name of the only split of a set without splits."""
+SHARD_BYTES = 1_000_000_000
+PICTURE = "images"
+_ORDER = ("train", "val", "test")
+
+
+def by_split(samples: Iterable[Truth]) -> dict[str, list[Truth]]:
+    """Sort the samples into their splits: train, val, test, then others."""
+    found: dict[str, list[Truth]] = defaultdict(list)
+    for truth in samples:
+        found[truth.split or UNSPLIT].append(truth)
+    return {name: found[name] for name in sorted(found, key=_place)}
+
+
+def by_run(samples: Iterable[Truth]) -> dict[str, list[Truth]]:
+    """Sort the samples into their runs, which have separate local metres. Keys are unique folder names."""
+    found: dict[str, list[Truth]] = defaultdict(list)
+    for truth in samples:
+        found[truth.groups.get("run", "run")].append(truth)
+    folders: dict[str, list[Truth]] = {}
+    for run in sorted(found):
+        name = re.sub(r"[^A-Za-z0-9_-]+", "_", run) or "run"
+        while name in folders:
+            name += "_"
+        folders[name] = found[run]
+    return folders
+
+
+def picture(truth: Truth) -> str:
+    """Return the path of the visible picture, relative to the data set."""
+    return truth.files[PICTURE]
+
+
+def class_index(annotation: Annotation) -> int:
+    """Return the class of an annotation for formats that count from 0: 0 fire, 1 smoke."""
+    return [each.id for each in THINGS].index(annotation.category)
+
+
+def corner_and_size(box: Box) -> list[float]:
+    """Turn a box into x, y, width, height from the corner of the picture, as COCO has it."""
+    x0, y0, x1, y1 = box
+    return [x0, y0, x1 - x0, y1 - y0]
+
+
+def write_json(path: Path, content: Any) -> None:
+    """Write JSON without spaces; equal contents give equal bytes."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    text = json.dumps(content, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    path.write_text(text + "\n", encoding="utf-8", newline="\n")
+
+
+def write_lines(path: Path, lines: Iterable[str]) -> None:
+    """Write lines of text, with line feeds on every system."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8", newline="\n")
+
+
+def link(source: Path, path: Path) -> None:
+    """Give a file a second name; copy it where the file system has no hard links."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        os.link(source, path)
+    except FileNotFoundError:
+        raise
+    except OSError:
+        shutil.copyfile(source, path)
+
+
+def shards(folder: Path, samples: Sequence[Truth], kinds: Sequence[str] = ()) -> list[list[Truth]]:
+    """Divide samples, in order, so that the files of a part have about `SHARD_BYTES`.
+
+    Parameters
+    ----------
+    kinds
+        Kinds of the files that count; all if empty.
+    """
+    parts: list[list[Truth]] = []
+    size = SHARD_BYTES
+    for truth in samples:
+        if size >= SHARD_BYTES:
+            parts.append([])
+            size = 0
+        parts[-1].append(truth)
+        used = [path for kind, path in truth.files.items() if not kinds or kind in kinds]
+        size += sum((folder / path).stat().st_size for path in used)
+    return parts
+
+
+def _place(split: str) -> tuple[int, str]:
+    return (_ORDER.index(split) if split in _ORDER else len(_ORDER), split)

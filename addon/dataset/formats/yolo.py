@@ -1,0 +1,58 @@
+"""YOLO: a text of boxes for each picture, empty for a negative, `data.yaml`, and a list of pictures by split.
+
+A line is `class cx cy w h`: class from 0, centre and size as fractions of the picture. Trainers find
+``labels/000137.txt`` from ``images/000137.jpg``, so the pictures have no second copy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..truth import Annotation, Box, CameraPose, Truth, stem
+from . import common
+
+FOLDER = "labels"
+
+
+def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
+    """Write the labels, the lists and `data.yaml`."""
+    for truth in samples:
+        lines = [line(each, truth.camera) for each in truth.annotations]
+        common.write_lines(out / FOLDER / f"{stem(truth.index)}.txt", lines)
+    splits = common.by_split(samples)
+    for name, members in splits.items():
+        common.write_lines(out / f"{name}.txt", [f"./{common.picture(truth)}" for truth in members])
+    yaml = [f"{name}: {name}.txt" for name in splits]
+    if common.UNSPLIT in splits:
+        yaml = [f"{name}: {common.UNSPLIT}.txt" for name in ("train", "val")]
+    elif "val" not in splits:  # trainers require it
+        yaml.append(f"val: {'test' if 'test' in splits else next(iter(splits))}.txt")
+    classes = [f"  {index}: {each.name}" for index, each in enumerate(common.THINGS)]
+    common.write_lines(out / "data.yaml", [*yaml, f"nc: {len(classes)}", "names:", *classes])
+
+
+def line(annotation: Annotation, camera: CameraPose) -> str:
+    """Write a box as fractions of the picture."""
+    x0, y0, x1, y1 = annotation.box
+    values = (
+        0.5 * (x0 + x1) / camera.width,
+        0.5 * (y0 + y1) / camera.height,
+        (x1 - x0) / camera.width,
+        (y1 - y0) / camera.height,
+    )
+    return " ".join([str(common.class_index(annotation)), *(f"{value:.7f}" for value in values)])
+
+
+def box(text: str, camera: CameraPose) -> tuple[int, Box]:
+    """Read a line: class from 0, and box in pixels.
+
+    Raises
+    ------
+    ValueError
+        The line does not have five numbers.
+    """
+    kind, x, y, w, h = text.split()
+    cx, cy = float(x) * camera.width, float(y) * camera.height
+    dx, dy = 0.5 * float(w) * camera.width, 0.5 * float(h) * camera.height
+    return int(kind), (cx - dx, cy - dy, cx + dx, cy + dy)

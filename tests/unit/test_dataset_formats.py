@@ -1,0 +1,181 @@
+"""Formats of data sets: boxes, masks and poses of each file agree with the truth."""
+
+import json
+import tarfile
+
+import labelled
+import numpy as np
+import pytest
+from firetwin.dataset import formats, rle
+from firetwin.dataset.formats import voc, yolo
+from firetwin.dataset.truth import CATEGORIES, stem
+from firetwin.errors import UsageError
+from firetwin.shot.cameras.rotation import matrices
+from PIL import Image
+
+NAMES = [name for name in formats.FORMATS if name != "parquet"]
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("set")
+    samples = labelled.data_set(folder)
+    formats.write(folder, samples, NAMES)
+    return folder, samples
+
+
+def instances(folder, split):
+    return json.loads((folder / f"annotations/instances_{split}.json").read_text())
+
+
+def boxes_of_truth(truth):
+    return [each.box for each in truth.annotations]
+
+
+def test_coco_has_boxes_areas_and_masks_of_the_truth(made):
+    folder, samples = made
+    known = {truth.index: truth for truth in samples}
+    found = [each for split in ("train", "test") for each in instances(folder, split)["annotations"]]
+    assert [each["id"] for each in found] == list(range(1, 13))
+    for each in found:
+        truth = known[each["image_id"]]
+        expected = next(one for one in truth.annotations if one.category == each["category_id"])
+        x, y, w, h = each["bbox"]
+        assert (x, y, x + w, y + h) == expected.box
+        mask = rle.decode(each["segmentation"])
+        np.testing.assert_array_equal(mask, labelled.shapes(truth.index)[expected.category])
+        assert each["area"] == mask.sum() == expected.pixels
+        assert each["attributes"]["distance_m"] == 1234.5
+
+
+def test_panoptic_segments_cover_each_pixel_once(made):
+    folder, samples = made
+    content = json.loads((folder / "annotations/panoptic_train.json").read_text())
+    kinds = {each["id"]: each for each in content["categories"]}
+    assert len(kinds) == len(CATEGORIES)
+    for each in content["annotations"]:
+        coded = np.asarray(Image.open(folder / "annotations/panoptic_train" / each["file_name"])).astype(int)
+        ids = coded @ [1, 256, 65536]
+        assert sorted(np.unique(ids[ids > 0])) == sorted(one["id"] for one in each["segments_info"])
+        for one in each["segments_info"]:
+            assert one["area"] == np.sum(ids == one["id"])
+        things = [one for one in each["segments_info"] if kinds[one["category_id"]]["isthing"]]
+        assert len(things) == len(next(t for t in samples if t.index == each["image_id"]).annotations)
+
+
+def test_yolo_and_voc_boxes_come_back(made):
+    folder, samples = made
+    for truth in samples:
+        lines = (folder / f"labels/{stem(truth.index)}.txt").read_text().splitlines()
+        read = [yolo.box(line, truth.camera) for line in lines]
+        np.testing.assert_allclose([box for _, box in read], boxes_of_truth(truth), atol=1e-4)
+        assert [kind + 1 for kind, _ in read] == [each.category for each in truth.annotations]
+        found = voc.boxes(folder / f"voc/Annotations/{stem(truth.index)}.xml")
+        assert [box for _, box in found] == boxes_of_truth(truth)
+
+
+def test_the_first_pixel_of_voc_is_1_1(made):
+    folder, samples = made
+    text = (folder / f"voc/Annotations/{stem(1)}.xml").read_text()
+    x0, _, x1, _ = samples[0].annotations[0].box
+    assert f"<xmin>{x0 + 1:g}</xmin>" in text
+    assert f"<xmax>{x1:g}</xmax>" in text
+
+
+def test_yolo_lists_each_picture_once_with_its_labels(made):
+    folder, samples = made
+    lists = [(folder / f"{split}.txt").read_text() for split in ("train", "test")]
+    pictures = "".join(lists).split()
+    assert sorted(pictures) == [f"./{truth.files['images']}" for truth in samples]
+    for picture in pictures:
+        assert (folder / picture).is_file()
+        assert (folder / picture.replace("/images/", "/labels/")).with_suffix(".txt").is_file()
+    assert "val: test.txt" in (folder / "data.yaml").read_text()
+
+
+def test_rows_of_hugging_face_name_pictures_and_boxes(made):
+    folder, samples = made
+    for split in ("train", "test"):
+        lines = (folder / f"imagefolder/{split}/metadata.jsonl").read_text().splitlines()
+        rows = [json.loads(line) for line in lines]
+        members = [truth for truth in samples if truth.split == split]
+        assert [row["index"] for row in rows] == [truth.index for truth in members]
+        for row, truth in zip(rows, members, strict=True):
+            assert (folder / "imagefolder" / split / row["file_name"]).is_file()
+            corners = [(x, y, x + w, y + h) for x, y, w, h in row["objects"]["bbox"]]
+            assert corners == boxes_of_truth(truth)
+            assert row["objects"]["category"] == [each.category - 1 for each in truth.annotations]
+
+
+def test_keys_of_webdataset_end_at_the_first_dot(made):
+    folder, samples = made
+    with tarfile.open(folder / "webdataset/test-000000.tar") as tar:
+        names = tar.getnames()
+        keys = {name.partition(".")[0] for name in names}
+        assert keys == {stem(truth.index) for truth in samples if truth.split == "test"}
+        meta = json.load(tar.extractfile(f"{max(keys)}.json"))
+    assert meta["index"] == int(max(keys))
+    assert f"{max(keys)}.jpg" in names
+    assert f"{max(keys)}.masks.png" in names
+
+
+def through_nerfstudio(folder, run, truth, point):
+    index = json.loads((folder / f"nerfstudio/{run}/transforms.json").read_text())
+    frame = next(one for one in index["frames"] if one["file_path"].endswith(truth.files["images"]))
+    assert (folder / "nerfstudio" / run / frame["file_path"]).resolve() == folder / truth.files["images"]
+    x, y, z, _ = np.linalg.inv(np.array(frame["transform_matrix"])) @ [*point, 1.0]
+    return frame["cx"] + frame["fl_x"] * x / -z, frame["cy"] - frame["fl_y"] * y / -z
+
+
+def through_colmap(folder, run, truth, point):
+    lines = (folder / f"colmap/{run}/images.txt").read_text().splitlines()
+    line = next(line.split() for line in lines if line.endswith(f"{stem(truth.index)}.jpg"))
+    rotation = matrices(np.array([line[1:5]], float))[0]
+    x, y, z = rotation @ point + np.array(line[5:8], float)
+    lenses = (folder / f"colmap/{run}/cameras.txt").read_text().splitlines()
+    fx, fy, cx, cy = next(map(float, each.split()[4:]) for each in lenses if each.startswith(f"{line[8]} "))
+    return cx + fx * x / z, cy + fy * y / z
+
+
+def through_tum(folder, run, truth, point):
+    def values(name):
+        lines = (folder / f"tum/{run}/{name}.txt").read_text().splitlines()
+        return next(line.split()[1:] for line in lines if line.startswith(f"{truth.index}.0 "))
+
+    tx, ty, tz, qx, qy, qz, qw = map(float, values("groundtruth"))
+    rotation = matrices(np.array([[qw, qx, qy, qz]]))[0]
+    x, y, z = rotation.T @ (point - [tx, ty, tz])
+    assert values("rgb") == [f"../../{truth.files['images']}"]
+    fx, fy, cx, cy = map(float, values("camera")[2:])
+    return cx + fx * x / z + 0.5, cy + fy * y / z + 0.5  # the first pixel of OpenCV has its centre at 0, 0
+
+
+@pytest.mark.parametrize("through", [through_nerfstudio, through_colmap, through_tum])
+def test_poses_project_a_landmark_to_one_pixel(made, through):
+    folder, samples = made
+    for truth in samples:
+        point = labelled.landmark(truth.camera)
+        expected = labelled.project(truth.camera, point)
+        assert abs(expected - [45.2, 15.6]).max() < 1.0  # right of and above the centre
+        found = through(folder, truth.groups["run"].replace(" ", "_"), truth, point)
+        np.testing.assert_allclose(found, expected, atol=1e-6)
+
+
+def test_a_format_written_twice_has_equal_bytes(made, tmp_path):
+    folder, samples = made
+    labelled.data_set(tmp_path)
+    formats.write(tmp_path, samples, NAMES)
+    for path in folder.rglob("*"):
+        if path.is_file():
+            assert path.read_bytes() == (tmp_path / path.relative_to(folder)).read_bytes(), path
+
+
+def test_names_of_formats_are_explained(monkeypatch):
+    assert formats.names("yolo, coco,yolo") == ("yolo", "coco")
+    assert set(formats.names("all")) >= set(NAMES)
+    with pytest.raises(UsageError, match='no format "kitti"; choose from coco, yolo'):
+        formats.names("kitti")
+    monkeypatch.setattr(formats.importlib.util, "find_spec", lambda name: None)
+    assert "parquet" not in formats.names("all")
+    with pytest.raises(UsageError, match="pip install pyarrow"):
+        formats.names("parquet")
