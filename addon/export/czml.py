@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from .. import files
 from ..ellipsoid import ecef
 from ..imaging import map_symbols
+from ..shot.georeference import earth_centred
 from . import fronts, places, tracks
 from .fronts import DatedFront, Polygon
-from .georeference import earth_centred
 from .places import Place
 from .request import ExportRequest
 from .texts import html, iso

@@ -9,11 +9,12 @@ from ..errors import UsageError
 from ..jobs.tiles import selection
 from ..jobs.worker import Stop
 from ..progress import MessageCallback, Progress, no_message, silent
+from ..shot import georeference
+from ..shot.georeference import Georeference
 from ..shot.schema.frame_list import FrameList
 from ..shot.source import ShotSource
 from ..staging import staging
-from . import formats, georeference
-from .georeference import Georeference
+from . import formats
 from .request import ExportRequest
 
 _HEIGHTS = ("export", 'firetwin export with terrain.height_source = "tiles"')

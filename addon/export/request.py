@@ -7,9 +7,9 @@ from pathlib import Path
 
 from ..jobs.worker import Stop
 from ..progress import MessageCallback, Progress, no_message, silent
+from ..shot.georeference import Georeference
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
-from .georeference import Georeference
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 from ..jobs import worker
 from ..jobs.tiles import imagery, selection
 from ..progress import MessageCallback, Progress
+from ..shot import georeference
+from ..shot.georeference import Georeference
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
-from . import georeference
-from .georeference import Georeference
 
 if TYPE_CHECKING:
     from .request import ExportRequest

@@ -11,7 +11,7 @@ from typing import Any
 
 from pxr import Gf, Sdf
 
-from .georeference import Georeference
+from ..shot.georeference import Georeference
 
 
 def define(stage: Any, place: Georeference) -> None:

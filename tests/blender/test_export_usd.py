@@ -9,11 +9,12 @@ import mathutils
 import numpy as np
 import pytest
 from firetwin.errors import Error
-from firetwin.export import georeference, read_scene, usd
+from firetwin.export import read_scene, usd
 from firetwin.export.scene_content import SmokeLayer
 from firetwin.export.scene_job import SceneExport
 from firetwin.progress import silent
 from firetwin.scene import build
+from firetwin.shot import georeference
 from firetwin.shot.shot import Shot
 from firetwin_core import volume
 

@@ -6,11 +6,12 @@ import json
 from pathlib import Path
 
 import numpy as np
-from firetwin.export import georeference, gltf, tracks
+from firetwin.export import gltf, tracks
 from firetwin.export.request import ExportRequest
 from firetwin.export.scene_content import CameraMove, Plants, Prototype, SceneContent
 from firetwin.export.scene_job import SceneExport
 from firetwin.progress import silent
+from firetwin.shot import georeference
 from firetwin.shot.shot import Shot
 from firetwin.shot.source import ShotSource
 from small_run import RUN_TOML, small_fields, write_field

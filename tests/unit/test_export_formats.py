@@ -8,9 +8,10 @@ from datetime import datetime
 import numpy as np
 import pytest
 from firetwin import cli
-from firetwin.export import czml, fronts, georeference, kmz, overlays, pictures, texts, tracks
+from firetwin.export import czml, fronts, kmz, overlays, pictures, texts, tracks
 from firetwin.export.request import ExportRequest
 from firetwin.run.front import reach
+from firetwin.shot import georeference
 from firetwin.shot.source import ShotSource
 from PIL import Image
 from pyproj import Geod, Transformer

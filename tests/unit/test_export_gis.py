@@ -13,11 +13,12 @@ import pytest
 import rasterio
 import shapely
 from firetwin import cli
-from firetwin.export import georeference, gis, gis_rasters
+from firetwin.export import gis, gis_rasters
 from firetwin.export.gis_rasters import Raster
 from firetwin.export.request import ExportRequest
 from firetwin.imaging import map_symbols
 from firetwin.run import observations
+from firetwin.shot import georeference
 from firetwin.shot.source import ShotSource
 from pyproj import Transformer
 from small_run import RUN_TOML

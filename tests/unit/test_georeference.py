@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pymap3d
 import pytest
-from firetwin.export import georeference
-from firetwin.export.georeference import Georeference
+from firetwin.shot import georeference
+from firetwin.shot.georeference import Georeference
 from firetwin_core import geo
 from pyproj import CRS, Transformer
 

@@ -19,8 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import files
 from ..ellipsoid import ecef, enu_axes
-from ..shot.shot import Shot
 from ..tiles import geoid
+from .shot import Shot
 
 Array = NDArray[np.float64]
 NAME = "georeference.json"
