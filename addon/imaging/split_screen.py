@@ -2,29 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Ellipse, Rectangle
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 _DPI = 100.0
 _EMPTY = 0.07  # grey level of a quarter without a picture
 _EDGE = "#000000c0"
-HATCHED = "hatched"
+HATCHED, LINE = "hatched", "line "
 Key = tuple[str, str]
-"""Legend entry: a colour and its meaning; `HATCHED` in place of a colour; "" for a heading."""
+"""Legend entry: a colour and its meaning; "" for a heading. `HATCHED` replaces a colour, and `LINE` before
+one means a line."""
+
+
+class Mark(NamedTuple):
+    """Text next to a place of a picture: pixels right and down, and the colour of a dot there.
+
+    The text is at the left of the place if there is no room at its right.
+    """
+
+    x: float
+    y: float
+    text: str
+    colour: str = "#ffffff"
 
 
 def sheet(
-    pictures: list[NDArray], keys: list[list[Key]], foot: list[str], below: int = 0
+    pictures: list[NDArray],
+    keys: list[list[Key]],
+    foot: list[str],
+    below: int = 0,
+    marks: Sequence[Sequence[Mark]] = (),
 ) -> NDArray[np.float32]:
     """Compose one to four `pictures` (h, w, 3) into one picture of the same size.
 
     Two are halves with the central half of their picture. Three or four are quarters with the whole picture
     at half size. `keys` are drawn in their upper left corners, the lines of `foot` in the lower left corner,
-    `below` rows from the bottom.
+    `below` rows from the bottom. `marks` are drawn in their pictures if they overlap neither other text nor
+    an edge, the first ones first.
     """
     height, width = pictures[0].shape[:2]
     sheet, corners = _arranged([np.clip(picture[..., :3], 0.0, 1.0) for picture in pictures])
@@ -33,16 +54,23 @@ def sheet(
     figure.figimage(np.round(255.0 * sheet[::-1]).astype(np.uint8), origin="lower")
     unit = height / 100.0
     large = unit if len(corners) < 3 else 0.8 * unit
+    taken: list[Box] = []
     for (left, top), listed in zip(corners, keys, strict=True):
         for number, (colour, text) in enumerate(listed):
             at = top + (2.5 + 5.2 * number) * large
+            taken.append(_box(left + 2.0 * unit, at + 1.5 * large, f"mm{text}", 3.4 * large))
             if colour:
                 box = left + 2.0 * unit, at, 3.0 * large
                 _swatch(figure, colour, box, unit)
             indent = 4.4 * large if colour else 0.0
             _text(figure, left + 2.0 * unit + indent, at + 1.5 * large, text, 3.4 * large)
     for number, line in enumerate(reversed(foot)):
-        _text(figure, 2.0 * unit, height - below - (3.2 + 4.6 * number) * unit, line, 3.0 * unit)
+        at = height - below - (3.2 + 4.6 * number) * unit
+        _text(figure, 2.0 * unit, at, line, 3.0 * unit)
+        taken.append(_box(2.0 * unit, at, line, 3.0 * unit))
+    for area, texts in zip(_areas(len(pictures), width, height), marks, strict=False):
+        for mark, at_left in _free(texts, area, 2.8 * large, taken):
+            _mark(figure, mark, 2.8 * large, at_left)
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())[..., :3].astype(np.float32) / 255.0
 
@@ -69,12 +97,71 @@ def _arranged(pictures: list[NDArray]) -> tuple[NDArray, list[tuple[int, int]]]:
     return sheet, corners
 
 
+Box = tuple[float, float, float, float]  # left, top, right, bottom, pixels
+
+
+def _areas(pictures: int, width: int, height: int) -> list[tuple[Box, float, float]]:
+    """Return the area of each picture on the sheet, its scale, and the first column that is shown."""
+    if pictures < 3:
+        part = width // pictures
+        first = width // 4 if pictures == 2 else 0
+        return [((part * k, 0, part * (k + 1), height), 1.0, first) for k in range(pictures)]
+    half, middle = width // 2, height // 2
+    return [((x, y, x + half, y + middle), 0.5, 0) for y in (0, middle) for x in (0, half)]
+
+
+def _box(x: float, y: float, text: str, size: float) -> Box:
+    """Estimate the box of a text `size` pixels high."""
+    return x, y - 0.7 * size, x + 0.62 * size * len(text), y + 0.7 * size
+
+
+def _free(
+    marks: Sequence[Mark], area: tuple[Box, float, float], size: float, taken: list[Box]
+) -> Iterator[tuple[Mark, bool]]:
+    """Return the marks of a picture, on the sheet, that overlap no text and no edge.
+
+    Their boxes are `taken` then. Also return True for a text at the left of its place.
+    """
+    (left, top, right, bottom), scale, first = area
+    for mark in marks:
+        x, y = left + scale * (mark.x - first), top + scale * mark.y
+        long = 0.62 * size * (len(mark.text) + 1)
+        for x0 in (x - 0.3 * size, x + 0.3 * size - long):
+            box = x0, y - 0.7 * size, x0 + long, y + 0.7 * size
+            inside = box[0] >= left and box[1] >= top and box[2] <= right and box[3] <= bottom
+            if inside and not any(_overlap(box, other) for other in taken):
+                taken.append(box)
+                yield mark._replace(x=x, y=y), x0 < x - 0.5 * size
+                break
+
+
+def _overlap(one: Box, other: Box) -> bool:
+    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+
+
+def _mark(figure: Figure, mark: Mark, size: float, at_left: bool) -> None:
+    """Draw a dot and its text on the sheet."""
+    width, height = figure.get_size_inches() * _DPI
+    at = mark.x / width, 1.0 - mark.y / height
+    shape = Ellipse(
+        at, 0.5 * size / width, 0.5 * size / height, transform=figure.transFigure,
+        facecolor=mark.colour, edgecolor=_EDGE, linewidth=0.05 * size,
+    )  # fmt: skip
+    figure.add_artist(shape)
+    x = mark.x - 0.5 * size if at_left else mark.x + 0.5 * size
+    _text(figure, x, mark.y, mark.text, size, "right" if at_left else "left")
+
+
 def _swatch(figure: Figure, colour: str, box: tuple[float, float, float], unit: float) -> None:
     """Draw the square of a legend entry: left and top side, and its size, pixels."""
     left, top, size = box
     width, height = figure.get_size_inches() * _DPI
-    corner = left / width, 1.0 - (top + size) / height
-    shape = Rectangle(corner, size / width, size / height, transform=figure.transFigure)
+    if colour.startswith(LINE):
+        colour, tall = colour.removeprefix(LINE), 0.25 * size
+    else:
+        tall = size
+    corner = left / width, 1.0 - (top + 0.5 * (size + tall)) / height
+    shape = Rectangle(corner, size / width, tall / height, transform=figure.transFigure)
     if colour == HATCHED:
         shape.set(facecolor="#00000060", edgecolor="white", hatch="////", linewidth=0.1 * unit)
     else:
@@ -82,11 +169,11 @@ def _swatch(figure: Figure, colour: str, box: tuple[float, float, float], unit: 
     figure.add_artist(shape)
 
 
-def _text(figure: Figure, x: float, y: float, text: str, size: float) -> None:
-    """Draw text `size` pixels high, vertically centred on y (pixels from the top), from x on."""
+def _text(figure: Figure, x: float, y: float, text: str, size: float, side: str = "left") -> None:
+    """Draw text `size` pixels high, vertically centred on y (pixels from the top), from or up to x."""
     width, height = figure.get_size_inches() * _DPI
     said = figure.text(
         x / width, 1.0 - y / height, text, size=size * 72.0 / _DPI, color="white", family="DejaVu Sans",
-        va="center",
+        va="center", ha=side,
     )  # fmt: skip
     said.set_path_effects([withStroke(linewidth=0.22 * size, foreground=_EDGE)])

@@ -66,14 +66,21 @@ def member_of(settings: Settings, run: Run, first: bool) -> int:
 
 
 def others(found: Ensemble, shown: int, lines: int) -> list[int]:
-    """Choose the other members whose fronts are drawn in addition to the shown one."""
-    return list(_others(found, shown, lines))
+    """Choose the other members whose fronts are drawn: nearly the same for each shown member."""
+    if not lines:
+        return []
+    return [member for member in _representatives(found, lines + 1) if member != shown][:lines]
 
 
 def roles(found: Ensemble, member: int) -> list[str]:
     """List the roles of a member: typical, smallest, largest, outlier."""
     chosen = _chosen(found)
     return [role for role in ("typical", "smallest", "largest", "outlier") if getattr(chosen, role) == member]
+
+
+def outlier(found: Ensemble) -> int:
+    """Return the least deep member."""
+    return _chosen(found).outlier
 
 
 def check(settings: Settings, run: Run) -> None:
@@ -159,6 +166,7 @@ def _burned(found: Ensemble, run: Run, time: float) -> NDArray[np.float64]:
     return front.reach(run).burned(latitude, longitude, time)
 
 
+@functools.lru_cache(maxsize=8)
 def _most_similar(found: Ensemble, run: Run) -> tuple[int, Agreement]:
     """Find the member that agrees best with a run."""
     every = [agreement(found, member, run) for member in range(len(found.members))]
@@ -228,5 +236,5 @@ def _chosen(found: Ensemble) -> choice.Choice:
 
 
 @functools.lru_cache(maxsize=8)
-def _others(found: Ensemble, shown: int, lines: int) -> tuple[int, ...]:
-    return tuple(choice.spread(found, shown, lines)) if lines else ()
+def _representatives(found: Ensemble, count: int) -> tuple[int, ...]:
+    return tuple(choice.representatives(found, count))

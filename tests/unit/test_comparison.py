@@ -272,6 +272,26 @@ def test_names_and_time_are_written_where_they_should_be():
     assert found[60:150, 4:150].max() == 0.0
 
 
+def test_marks_are_written_next_to_their_places_and_never_over_each_other():
+    dark = np.zeros((180, 320, 3), np.float32)
+
+    def shown(*marks, keys=()):
+        found = split_screen.sheet([dark], [list(keys)], [], marks=[marks])
+        return found.max(axis=-1) > 0.5
+
+    one = shown(split_screen.Mark(100, 90, "Alpha"))
+    assert one[85:95, 100:130].any()
+    assert not one[:, :95].any()
+    edge = shown(split_screen.Mark(310, 90, "Alpha"))
+    assert edge[85:95, 280:305].any(), "at the left of its place"
+    both = shown(split_screen.Mark(100, 90, "Alpha"), split_screen.Mark(90, 90, "Bravo"))
+    assert both[85:95, 60:86].any(), "the second is at its left"
+    third = shown(*[split_screen.Mark(100 - 9 * k, 90, "Alpha") for k in range(3)])
+    assert np.array_equal(third, shown(*[split_screen.Mark(100 - 9 * k, 90, "Alpha") for k in range(2)]))
+    quarters = split_screen.sheet([dark] * 3, [[]] * 3, [], marks=[[], [], [split_screen.Mark(100, 90, "A")]])
+    assert quarters[128:142, 50:60].max() > 0.5
+
+
 def test_a_sample_at_half_its_pace_is_twice_as_late():
     found = stored.load()
     slow = sample.at_pace(found, 0.5)

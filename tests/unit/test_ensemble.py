@@ -103,10 +103,17 @@ def test_middle_of_nested_fires_is_deepest(tmp_path):
     made = make(tmp_path, [*arrival, far])
     chosen = choice.choose(made)
     assert (sizes[chosen.typical], sizes[chosen.largest], chosen.smallest, chosen.outlier) == (5.5, 9.5, 5, 5)
-    others = choice.spread(made, chosen.typical, 3)
-    assert others[0] == 5  # the outlier is among the first
-    assert len(others) == 3
-    assert chosen.typical not in others
+    assert choice.representatives(made, 1) == [2]
+    assert choice.representatives(made, 3) == [2, 5, 0]  # typical, outlier, largest
+    assert sorted(choice.representatives(made, 9)) == list(range(6))
+
+
+def test_representatives_stand_for_the_most_others(tmp_path):
+    """Four members burn one cell, three another, two a third, and one the last: the outlier."""
+    cells = [0] * 4 + [1] * 3 + [2] * 2 + [3]
+    made = make(tmp_path, np.where(np.eye(4)[cells][:, None] > 0, 1.0, NEVER))
+    assert choice.representatives(made, 3) == [0, 9, 4]
+    assert choice.representatives(made, 5)[:4] == [0, 9, 4, 7]
 
 
 def test_summary_names_members_and_areas(tmp_path):

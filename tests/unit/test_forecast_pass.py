@@ -10,9 +10,9 @@ import pytest
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging import split_screen
 from firetwin.render import fingerprint, plan
-from firetwin.render.finish import _forecast_text, finisher, forecast, outcomes
+from firetwin.render.finish import _forecast_drawing, _forecast_labels, _forecast_text, finisher, outcomes
 from firetwin.run.ensemble import ensemble, write
-from firetwin.run.ensemble.choice import MOST_LINES
+from firetwin.run.ensemble.choice import LINES
 from firetwin.run.ensemble.manifest import LeftOut, Manifest, Member
 from firetwin.run.ensemble.places import Places
 from firetwin.shot import forecast as shot_forecast
@@ -69,7 +69,7 @@ def scene(tmp_path):
 @pytest.mark.parametrize("members", [*range(1, 30), 100, 999])
 def test_classes_are_as_wide_as_each_other_and_the_legend_names_their_counts(members):
     counts = np.arange(members + 1)
-    kinds, colours = forecast.classes(counts, members), forecast.palette(members)
+    kinds, colours = _forecast_drawing.classes(counts, members), _forecast_drawing.palette(members)
     assert kinds[0] == 0
     assert set(kinds[1:]) == set(range(1, len(colours) + 1))
     assert len(colours) == min(members, 5)
@@ -89,15 +89,15 @@ def test_twenty_members_have_five_classes_of_four():
 
 
 def test_colours_differ_by_lightness_alone_and_are_not_those_of_flames():
-    shades = np.array([forecast._values(each) for each in _forecast_text.COLOURS])
+    shades = np.array([_forecast_drawing.values(each) for each in _forecast_text.COLOURS])
     linear = np.where(shades > 0.04045, ((shades + 0.055) / 1.055) ** 2.4, shades / 12.92)
     lightness = 116.0 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16.0  # CIELAB
     assert (np.diff(lightness) > 10.0).all()
     assert (shades[:, 2] > shades[:, 0]).all()
 
 
-def test_the_lines_of_a_scene_file_are_as_many_as_can_be_told_apart():
-    assert ForecastSettings().lines == MOST_LINES
+def test_the_lines_of_a_scene_file_are_the_usual_number():
+    assert ForecastSettings().lines == LINES
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -122,12 +122,12 @@ def test_places_count_the_members_that_have_burned_them(tmp_path, turned):
 def test_a_line_is_the_border_of_the_burned_area_and_not_of_a_hill():
     burned = np.zeros((9, 12), np.bool_)
     burned[:, :6] = True
-    line = forecast.outline(burned)
+    line = _forecast_drawing.outline(burned)
     assert line[:, [5, 6]].min() > 0.8
     assert line[:, [0, 1, 2, 3, 4, 7, 8, 9, 10, 11]].max() == 0.0
     planar = np.full((9, 12), 1000.0, np.float32)
     planar[:5, 6:] = 5000.0  # a hill in front of far ground
-    flat = forecast.smooth_ground(planar)
+    flat = _forecast_drawing.smooth_ground(planar)
     assert not flat[:4, [5, 6]].any()
     assert flat[7:].all()
 
@@ -140,15 +140,15 @@ def layers(**values):
 
 def test_the_tint_fades_as_the_ground_does_behind_smoke_and_leaves_flames():
     lit = {"R": 1.0, "G": 1.0, "B": 1.0}
-    assert forecast.clearness(layers(**lit)) == 1.0
-    assert forecast.clearness(layers(**lit, smoke=0.75)) == 0.25
-    assert forecast.clearness(layers(**lit, fire=1.0)) == 0.0
-    assert forecast.clearness(layers(**lit, light_fire=0.5)) == 0.5
+    assert _forecast_drawing.clearness(layers(**lit)) == 1.0
+    assert _forecast_drawing.clearness(layers(**lit, smoke=0.75)) == 0.25
+    assert _forecast_drawing.clearness(layers(**lit, fire=1.0)) == 0.0
+    assert _forecast_drawing.clearness(layers(**lit, light_fire=0.5)) == 0.5
     rgb, kinds = np.full((1, 1, 3), 0.5, np.float32), np.array([[1]])
     clear = np.zeros((1, 1), np.float32)
-    assert np.array_equal(forecast.tint(rgb, kinds, ("#0000ff",), clear), rgb)
-    assert np.array_equal(forecast.tint(rgb, 0 * kinds, ("#0000ff",), clear + 1.0), rgb)
-    assert forecast.tint(rgb, kinds, ("#0000ff",), clear + 1.0)[0, 0].argmax() == 2
+    assert np.array_equal(_forecast_drawing.tint(rgb, kinds, ("#0000ff",), clear), rgb)
+    assert np.array_equal(_forecast_drawing.tint(rgb, 0 * kinds, ("#0000ff",), clear + 1.0), rgb)
+    assert _forecast_drawing.tint(rgb, kinds, ("#0000ff",), clear + 1.0)[0, 0].argmax() == 2
 
 
 @pytest.mark.parametrize(
@@ -184,10 +184,13 @@ def test_shares_of_other_kinds_are_refused_and_their_lines_are_not(scene):
     scene.write_text(scene.read_text().replace('member = "01"', 'member = "01"\nshares = false'))
     shot = ShotSource(scene=str(scene)).shot()
     found = shot_forecast.of(shot.settings)
-    assert _forecast_text.caption(shot, found, 2, 1)[1].startswith("burning: scenario 01 of 4")
-    assert _forecast_text.legend(shot, found, 2, 1, np.arange(4), 3, False) == [
-        (_forecast_text.SHOWN, "front of scenario 01, burning"),
-        (_forecast_text.LINE, "fronts of 3 other scenarios"),
+    counts = _forecast_text.Counts(found, shot.utc(2), 1, 4, (0, 2, 3), False)
+    assert _forecast_text.caption(shot, counts)[1].startswith("burning: scenario 01 of 4")
+    outlier = shot_forecast.outlier(found)
+    assert _forecast_text.legend(shot, counts) == [
+        ("line " + _forecast_text.SHOWN, "front of scenario 01, burning"),
+        ("line " + _forecast_text.OUTLIER, f"front of scenario {found.members[outlier].name}, outlier"),
+        ("line " + _forecast_text.LINE, "fronts of 2 other scenarios"),
     ]
 
 
@@ -202,14 +205,15 @@ def test_captions_and_legend_name_member_times_and_counts(scene):
     shot = ShotSource(scene=str(scene)).shot()
     found = shot_forecast.of(shot.settings)
     roles = shot_forecast.roles(found, 1)
-    assert _forecast_text.caption(shot, found, 2, 1) == [
+    counts = _forecast_text.Counts(found, shot.utc(2), 1, 3, (2,), True)
+    assert _forecast_text.caption(shot, counts) == [
         "synthetic",
         f"burning: member 01 of 4{f' ({roles[0]})' if roles else ''}, stripes",
         "issued 16 Sep 2014 21:45 PDT",
         "valid 16 Sep 2014 21:46 PDT",
     ]
     found = replace(found, manifest=replace(found.manifest, left_out=(LeftOut("04", "empty"),)))
-    words = [text for _, text in _forecast_text.legend(shot, found, 2, 1, np.array([0, 1, 2]), 2, True)]
+    words = [text for _, text in _forecast_text.legend(shot, replace(counts, ensemble=found))]
     assert words == [
         *(
             "burned by 21:46 in",
@@ -217,7 +221,8 @@ def test_captions_and_legend_name_member_times_and_counts(scene):
             "2 of 3",
             "1 of 3",
             "front of member 01, burning",
-            "fronts of 2 other members",
+            "front of 1 other member",
+            "1 of 2 others drawn, colours count all",
             "not simulated",
         ),
         *("1 of 4 ended before 21:46", "1 failed, not counted"),
@@ -240,7 +245,7 @@ def test_a_picture_shows_counts_on_the_ground_and_hatches_what_was_not_simulated
     given = []
     original = split_screen.sheet
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(split_screen, "sheet", lambda *all: given.append(all) or original(*all))
+        patch.setattr(split_screen, "sheet", lambda *all, **more: given.append(all) or original(*all, **more))
         finisher("forecast")(files, needed, shot, "drone", 3)
     (((picture,), (keys,), said, _below),) = given
     assert sensor.read_image(files["png"]).shape[:2] == (48, 64)
@@ -287,6 +292,29 @@ def test_outcomes_take_turns_of_one_and_a_half_seconds():
     assert outcomes.turn(2, Fraction(1, 10), 3) == 1
     film = [outcomes.turn(frame, Fraction(24000, 1001), 2) for frame in range(1, 73)]
     assert film == [0] * 36 + [1] * 36
+
+
+def test_a_front_is_labelled_apart_from_the_others_and_near_the_middle():
+    own = np.array([(50, x) for x in range(100)])
+    other = np.array([(50, x) for x in range(60)])
+    assert _forecast_labels._free_point([own, other], (100, 100)) == (50.0, 64.0)
+    assert _forecast_labels._free_point([own], (100, 100)) == (50.0, 50.0)
+    assert _forecast_labels._free_point([own[:3]], (100, 100)) is None
+
+
+def test_places_behind_hills_and_smoke_are_not_named(scene):
+    shot = ShotSource(scene=str(scene)).shot()
+    (view,) = shot.paths
+    middle = view.position[0] - 900.0 * view.rotation[0][:, 2] * [[1.0], [-1.0]]
+    far, near = np.full((48, 64), 900.0, np.float32), np.full((48, 64), 300.0, np.float32)
+    for planar, clear, seen in ((far, 1.0, True), (near, 1.0, False), (far, 0.0, False)):
+        at = _forecast_labels.visible(view, 1, planar, np.full((48, 64), clear, np.float32), middle)
+        assert np.isfinite(at).all(axis=1).tolist() == [seen, False]
+        if seen:
+            np.testing.assert_allclose(at[0], [32.0, 24.0], atol=1e-6)
+    at = np.array([[1.0, 2.0], [np.nan, np.nan], [3.0, 4.0]])
+    words = [mark.text for mark in _forecast_labels.names(["A", "B", "C"], np.array([2, 1, 0]), 4, at)]
+    assert words == ["A: burned in 2 of 4", "C"]
 
 
 def test_the_bar_has_a_part_for_each_run():

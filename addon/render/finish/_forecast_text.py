@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from datetime import datetime
 from itertools import pairwise
 from zoneinfo import ZoneInfo
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ...imaging.split_screen import HATCHED, Key
+from ...imaging.split_screen import LINE as _LINED
 from ...run import times
 from ...run.ensemble.ensemble import Ensemble
 from ...shot import forecast
@@ -17,52 +17,93 @@ from ...shot.surface import fronts
 
 COLOURS = ("#2b3a8f", "#3f6fc0", "#5aa2d8", "#93d0e8", "#e6f7ff")
 """Colours of the classes, fewest members first. Their lightness ascends, so that they differ without hue."""
-SHOWN, LINE, HATCH = fronts.COLOURS[0], "#ffffff", "#d8d8d8"
+SHOWN, OUTLIER, LINE, HATCH = *fronts.COLOURS[:2], "#ffffff", "#d8d8d8"
 _LONGEST = 40  # characters of a model's name
 _KINDS = {"forecast": "member", "scenarios": "scenario", "ranked": "size rank", "ignitions": "ignition"}
 
 
-def caption(shot: Shot, found: Ensemble, frame: int, shown: int) -> list[str]:
+@dataclass(frozen=True)
+class Counts:
+    """Numbers of a forecast picture.
+
+    Attributes
+    ----------
+    moment
+        Valid time, UTC.
+    shown
+        Index of the burning member.
+    count
+        Number of members that reach this time.
+    drawn
+        Indices of the other members whose fronts are drawn.
+    hatched
+        Ground in the picture was not simulated.
+    """
+
+    ensemble: Ensemble
+    moment: datetime
+    shown: int
+    count: int
+    drawn: tuple[int, ...]
+    hatched: bool
+
+    @property
+    def kind(self) -> str:
+        """Word for a member."""
+        return _KINDS[self.ensemble.manifest.kind]
+
+
+def caption(shot: Shot, counts: Counts) -> list[str]:
     """Name the shown member, the fire model, and the issue and valid times."""
-    zone, manifest = shot.settings.time.zone, found.manifest
-    roles = ", ".join(forecast.roles(found, shown))
-    which = f"{_KINDS[manifest.kind]} {found.members[shown].name} of {len(found.members)}"
+    zone, found = shot.settings.time.zone, counts.ensemble
+    manifest = found.manifest
+    which = f"{counts.kind} {found.members[counts.shown].name} of {len(found.members)}"
+    roles = ", ".join(forecast.roles(found, counts.shown))
     model = _short(manifest.model or "model not given")
     return [
         *(["synthetic"] if shot.run.synthetic or manifest.synthetic else []),
         f"burning: {which}{f' ({roles})' if roles else ''}, {model}",
         f"issued {times.text(found.issued, zone)}",
-        f"valid {times.text(shot.utc(frame), zone)}",
+        f"valid {times.text(counts.moment, zone)}",
     ]
 
 
-def legend(
-    shot: Shot,
-    found: Ensemble,
-    frame: int,
-    shown: int,
-    counted: NDArray[np.int64],
-    lines: int,
-    hatched: bool,
-) -> list[Key]:
+def legend(shot: Shot, counts: Counts) -> list[Key]:
     """Explain colours, lines and hatching."""
-    count = len(counted)
-    clock = f"{shot.utc(frame).astimezone(ZoneInfo(shot.settings.time.zone)):%H:%M}"
+    found, kind, count = counts.ensemble, counts.kind, counts.count
+    total = len(found.members)
+    clock = f"{counts.moment.astimezone(ZoneInfo(shot.settings.time.zone)):%H:%M}"
     keys: list[Key] = []
-    if shot.settings.forecast.shares:
+    if shares := shot.settings.forecast.shares:
         colours = COLOURS[: max(min(count, len(COLOURS)), 1)]
         steps = list(zip(colours, ranges(count, len(colours)), strict=True))
         keys += [("", f"burned by {clock} in"), *((colour, f"{k} of {count}") for colour, k in steps[::-1])]
-    kind = _KINDS[found.manifest.kind]
-    keys.append((SHOWN, f"front of {kind} {found.members[shown].name}, burning"))
-    if lines:
-        keys.append((LINE, f"front{'s' * (lines > 1)} of {lines} other {kind}{'s' * (lines > 1)}"))
-    if hatched:
+        if len({member.weight for member in found.members}) > 1:
+            keys.append(("", "members count equally, weights not used"))
+    keys.append((_LINED + SHOWN, f"front of {kind} {found.members[counts.shown].name}, burning"))
+    keys += _lines(counts, ", colours count all" if shares else "")
+    if counts.hatched:
         keys.append((HATCHED, "not simulated"))
-    if (ended := len(found.members) - count) > 0:
-        keys.append(("", f"{ended} of {len(found.members)} ended before {clock}"))
+    if (ended := total - count) > 0:
+        keys.append(("", f"{ended} of {total} ended before {clock}"))
     if found.left_out:
         keys.append(("", f"{len(found.left_out)} failed, not counted"))
+    return keys
+
+
+def _lines(counts: Counts, more: str) -> list[Key]:
+    """Explain the fronts of other members, and how many are drawn."""
+    found, kind = counts.ensemble, counts.kind
+    keys, plain = list[Key](), len(counts.drawn)
+    outlier = forecast.outlier(found)
+    if outlier in counts.drawn:
+        plain -= 1
+        keys.append((_LINED + OUTLIER, f"front of {kind} {found.members[outlier].name}, outlier"))
+    if plain:
+        keys.append((_LINED + LINE, f"front{'s' * (plain > 1)} of {plain} other {kind}{'s' * (plain > 1)}"))
+    others = counts.count - 1
+    if 0 < len(counts.drawn) < others:
+        keys.append(("", f"{len(counts.drawn)} of {others} others drawn{more}"))
     return keys
 
 

@@ -1,4 +1,4 @@
-"""Choice of members to show: the typical, the smallest, the largest, an outlier, and a spread of others."""
+"""Choice of members to show: the typical, the smallest, the largest, an outlier, and representatives."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from .ensemble import Ensemble
 from .statistics import burned_areas, depths, overlaps
 
-MOST_LINES = 15
-"""Members that a reader can tell apart on a map (Liu et al., 2019: a few that spread), plus the shown one."""
+LINES = 6
+"""Usual number of other members that are drawn: few, spread out, and close to the rest (Liu et al., IEEE TVCG
+25(1), 2019). The number is by eye."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,21 +54,23 @@ def choose(ensemble: Ensemble) -> Choice:
     )
 
 
-def spread(ensemble: Ensemble, shown: int, most: int = MOST_LINES) -> list[int]:
-    """Choose at most `most` other members than the shown one, as different as possible.
+def representatives(ensemble: Ensemble, count: int) -> list[int]:
+    """Choose at most `count` members that stand for all: typical, outlier, largest, smallest, then others.
 
-    Each next one is the member whose largest Jaccard index with those chosen before is lowest (farthest-point
-    sampling; Gonzalez, Theoretical Computer Science 38, 1985), so that an outlier is among the first.
+    Each next one is the member that most lowers the mean distance, 1 - Jaccard index of burned areas at the
+    horizon, from every member to the nearest chosen one (greedy k-medoids; Kaufman and Rousseeuw, Finding
+    Groups in Data, 1990, BUILD). Members count equally.
     """
+    chosen, likeness = choose(ensemble), jaccard(overlaps(ensemble, ensemble.horizon))
     counted = np.flatnonzero(ensemble.counted(ensemble.horizon))
-    likeness = jaccard(overlaps(ensemble, ensemble.horizon))
-    chosen = [shown]
-    while len(chosen) <= most:
-        left = [member for member in counted if member not in chosen]
-        if not left:
-            break
-        chosen.append(int(min(left, key=lambda member: likeness[member, chosen].max())))
-    return chosen[1:]
+    first = (chosen.typical, chosen.outlier, chosen.largest, chosen.smallest)
+    found = list(dict.fromkeys(first))[:count]
+    while len(found) < min(count, len(counted)):
+        near = likeness[counted][:, found].max(axis=1)
+        gain = np.maximum(likeness[counted] - near[:, None], 0.0).sum(axis=0).round(6)  # (m,) of all members
+        gain[[member for member in range(len(gain)) if member in found or member not in counted]] = -1.0
+        found.append(int(gain.argmax()))
+    return found
 
 
 def jaccard(common: NDArray[np.float64]) -> NDArray[np.float64]:

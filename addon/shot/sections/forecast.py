@@ -18,5 +18,6 @@ class ForecastSettings:
         None, "folder of the ensemble, such as `firetwin sample --members 20` writes", affects=()
     )
     member: str = key("", "name of the member that the run shows; empty: the typical one")
-    lines: int = key(15, "limit on other members whose fronts are drawn", at_least=0, at_most=15)
+    lines: int = key(6, "limit on other members whose fronts are drawn", at_least=0, at_most=15)
     shares: bool = key(True, "tint the ground by the number of members that have burned it")
+    places: bool = key(True, "name places, from labels.file or of the fire, with this number")

@@ -21,11 +21,19 @@ Array = NDArray[np.float64]
 
 
 class Labels(NamedTuple):
-    """Names, positions (n, 3) on the ground in scene coordinates, m, and kinds ("town"; empty if unknown)."""
+    """Names, positions (n, 3) on the ground in scene coordinates, m, and kinds ("town"; empty if unknown).
+
+    Latitude and longitude (n,) are in degrees.
+    """
 
     names: list[str]
     position: Array
     kinds: list[str]
+    latitude: Array
+    longitude: Array
+
+
+_NONE = Labels([], np.empty((0, 3)), [], np.empty(0), np.empty(0))
 
 
 def find(shot: Shot) -> Labels:
@@ -36,17 +44,29 @@ def find(shot: Shot) -> Labels:
     InputError
         The user's list cannot be read, or has too many labels there.
     """
+    return _find(shot) if shot.settings.labels.enabled else _NONE
+
+
+def of_forecast(shot: Shot) -> Labels:
+    """Find the places that forecast pictures name; none if the visible picture has labels already."""
+    return _find(shot) if _in_forecast(shot.settings) and not shot.settings.labels.enabled else _NONE
+
+
+def _in_forecast(settings: Settings) -> bool:
+    return settings.forecast.ensemble is not None and settings.forecast.places
+
+
+def _find(shot: Shot) -> Labels:
     settings, ground = shot.settings.labels, shot.ground
-    if not settings.enabled:
-        return Labels([], np.empty((0, 3)), [])
     places = labels.read(settings.file) if settings.file else labels.known(shot.run)
     inside = _within(places, ground.fields.latitude, ground.fields.longitude)
     if not inside:
-        return Labels([], np.empty((0, 3)), [])
+        return _NONE
     if settings.file:
         _check_count(settings.file, inside)
     names, latitude, longitude, kinds = zip(*inside, strict=True)
-    return Labels(list(names), ground.point(latitude, longitude), list(kinds))
+    points = ground.point(latitude, longitude)
+    return Labels(list(names), points, list(kinds), np.array(latitude), np.array(longitude))
 
 
 def check(settings: Settings, run: Run) -> None:
@@ -58,7 +78,7 @@ def check(settings: Settings, run: Run) -> None:
         It cannot, or has.
     """
     places = settings.labels
-    if places.enabled and places.file:
+    if (places.enabled or _in_forecast(settings)) and places.file:
         _check_count(places.file, _within(labels.read(places.file), run.latitude, run.longitude))
 
 
@@ -80,4 +100,5 @@ def _check_count(path: Path, inside: list[Label]) -> None:
 def inputs(settings: Settings) -> dict[str, str]:
     """Return the hash of the user's file of labels, if there is one."""
     places = settings.labels
-    return {"labels": sha256(places.file)[:16]} if places.enabled and places.file else {}
+    drawn = places.enabled or _in_forecast(settings)
+    return {"labels": sha256(places.file)[:16]} if drawn and places.file else {}
