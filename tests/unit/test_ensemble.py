@@ -53,8 +53,10 @@ def test_a_member_that_ends_early_leaves_the_count(tmp_path):
     assert found.counted.tolist() == [3, 2]
     assert statistics.quantiles(made, [0.5, 1.0])[:, 0, 0].tolist() == [9.0, NEVER]
     assert np.isnan(statistics.burned_areas(made, [10.0])[0, 0])
-    with pytest.raises(Error, match="no member reaches the horizon"):
-        statistics.quantiles(make(tmp_path / "short", [[[1.0]]], ends=[5.0]), [0.5])
+    short = make(tmp_path / "short", [[[1.0]]], ends=[5.0])
+    for ask in (lambda: statistics.quantiles(short, [0.5]), lambda: choice.choose(short)):
+        with pytest.raises(Error, match="no member reaches the horizon"):
+            ask()
 
 
 times = st.one_of(st.floats(0, 24, width=16), st.just(NEVER), st.just(NONE))
@@ -221,8 +223,10 @@ def test_a_member_becomes_a_run(tmp_path):
         ("burn_probability_t120", "GridFire's share of simulations"),
         ("fire_probability_3600", "PROPAGATOR's share of realisations"),
         ("FSPro_7day", "FSPro's share of simulations of drawn weather"),
-        ("FSim_BP_CONUS", "a yearly probability, or one given an ignition somewhere"),
-        ("time-of-arrival_90", "one simulation that stands for a rank of fire size"),
+        ("ros_max_60", "PROPAGATOR's share of realisations"),
+        ("FSim_BP_CONUS", "FSim's yearly probability"),
+        ("IFTDSS_bp", "a probability given an ignition somewhere"),
+        ("hours-since-burned_90_012", "one simulation that stands for a rank of fire size"),
         ("burn_probability", "burn probabilities without the meaning"),
     ],
 )

@@ -81,6 +81,17 @@ def test_lists_of_burned_cells_count_rows_from_the_south(folder, tmp_path):
     assert np.isinf(arrival).sum() == 9
 
 
+def test_maps_on_other_cells_are_refused(folder, tmp_path):
+    for case in (1, 2):
+        arrival_map(folder, case, 7200, "10 -9999 -9999\n-9999 -9999 -9999\n")
+    moved = folder / "time_of_arrival_0000002_0007200.asc"
+    moved.write_text(moved.read_text().replace("700000", "700001"))
+    with pytest.raises(
+        InputError, match=r"0000002_0007200.asc: has other cells than time_of_"
+    ):
+        run(folder, tmp_path / "out")
+
+
 def test_a_cut_list_is_left_out(folder, tmp_path):
     (folder / "fbfm40.asc").write_text(ASCII + "1 1 1\n1 1 1\n")
     burned_list(folder / "toa_0001_0000001.bin", [(1, 1, 60.0)])

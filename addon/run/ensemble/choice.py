@@ -40,7 +40,14 @@ class Choice:
 
 
 def choose(ensemble: Ensemble) -> Choice:
-    """Choose members by their burned areas at the horizon; of equal ones, the first."""
+    """Choose members by their burned areas at the horizon; of equal ones, the first.
+
+    Raises
+    ------
+    Error
+        No member reaches the horizon.
+    """
+    ensemble.counted_at_end()
     area = burned_areas(ensemble, [ensemble.horizon])[:, 0]
     depth = depths(ensemble, ensemble.horizon)
     rounded = np.round(depth, 6)  # sums of areas have rounding errors

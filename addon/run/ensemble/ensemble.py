@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import input_error, reading
+from ...errors import Error, input_error, reading
 from ..areas import cell_areas
 from .manifest import MANIFEST, LeftOut, Manifest, Member, read
 
@@ -85,6 +85,19 @@ class Ensemble:
     def counted(self, time: float) -> NDArray[np.bool_]:
         """Return which members (m,) were simulated up to a time (s): statistics at this time count these."""
         return np.array([member.end >= time for member in self.members])
+
+    def counted_at_end(self) -> NDArray[np.bool_]:
+        """Return which members (m,) were simulated up to the horizon.
+
+        Raises
+        ------
+        Error
+            No member reaches it.
+        """
+        counted = self.counted(self.horizon)
+        if not counted.any():
+            raise Error(f"{self.path}: no member reaches the horizon; lower horizon_s")
+        return counted
 
     def arrival(self, member: int) -> NDArray[np.float32]:
         """Read the arrival times (ny, nx) of one member, s since the issue time."""

@@ -76,9 +76,7 @@ def quantiles(ensemble: Ensemble, levels: ArrayLike) -> NDArray[np.float32]:
     asked = np.atleast_1d(np.asarray(levels, np.float64))
     if not ((asked > 0.0) & (asked <= 1.0)).all():
         raise Error(f"quantiles: levels are above 0 and up to 1, not {asked}")
-    counted = ensemble.counted(ensemble.horizon)
-    if not counted.any():
-        raise Error(f"{ensemble.path}: no member reaches the horizon; lower horizon_s")
+    counted = ensemble.counted_at_end()
     weights = ensemble.weights[counted]
     same = bool((weights == weights[0]).all())
     _, rows, columns = ensemble.shape

@@ -50,6 +50,14 @@ class Raster:
             return Grid.projected(self.x, self.y, known), ""
         return local(self.x, self.y, at)
 
+    def has_cells_of(self, other: Raster) -> bool:
+        """Check that two rasters have the same cells, to 1 % of a cell."""
+        if self.values.shape != other.values.shape:
+            return False
+        axes = (self.x, other.x), (self.y, other.y)
+        step = min(float(np.abs(np.diff(axis)).min(initial=np.inf)) for _, axis in axes)
+        return max(float(np.abs(one - axis).max()) for one, axis in axes) <= 0.01 * step
+
     def on(self, grid: Grid, projection: str) -> NDArray[np.float32]:
         """Resample to another grid by nearest neighbour, NaN outside."""
         x, y = _places(grid, self.projection or projection)

@@ -118,7 +118,7 @@ def reader(paths: list[Path]) -> ModuleType:
     InputError
         No reader recognises them, or they belong to several runs.
     """
-    from ..models import one_run
+    from ..models import one_run, probability_maps
 
     modules = [importlib.import_module(f".{name}", __name__) for name in MODELS]
     broken: list[Error] = []
@@ -134,7 +134,8 @@ def reader(paths: list[Path]) -> ModuleType:
     if len(by_name) > 1:
         by_name.pop(modules[-1].NAME, None)
     if not by_name:
-        raise broken[0] if broken else input_error(paths[0], _why(paths))
+        refused = next((error for path in paths if (error := probability_maps.refusal(path))), None)
+        raise broken[0] if broken else refused or input_error(paths[0], _why(paths))
     one_run.of_models(by_name)
     ((name, ours),) = by_name.items()
     one_run.of_series(ours)

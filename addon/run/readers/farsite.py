@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import input_error
-from ..models import companion_rasters, from_arrival_time, raster
+from ..models import companion_rasters, from_arrival_time, probability_maps, raster
 from ..models.model import Model, Options
 
 NAME = "FARSITE or FlamMap output"
@@ -19,8 +19,10 @@ _UNITS = {"intensity": 1e3, "speed": 1 / 60.0, "per_area": 1e3}  # kW/m, m/min, 
 
 
 def sniff(path: Path) -> bool:
-    """Check by its name whether a raster has arrival times."""
-    return raster.is_raster(path) and raster.role(path) == "arrival"
+    """Check by its name whether a raster has arrival times of one simulation, in minutes."""
+    return (
+        raster.is_raster(path) and raster.role(path) == "arrival" and probability_maps.refusal(path) is None
+    )
 
 
 def read(paths: list[Path], options: Options) -> Model:

@@ -10,12 +10,15 @@ import importlib
 from pathlib import Path
 
 from ....errors import InputError, input_error
+from ...models import probability_maps
 from ...models.model import Options
-from .. import probability_maps
 from ..member_set import MemberSet
 from .files_in import files_in
 
-READERS = ("samples", "cell2fire", "elmfire", "wrf_sets", "wise", "folders")
+READERS = (
+    *("samples", "cell2fire", "gridfire", "elmfire", "ranked", "quicfire", "wrf_sets", "wise"),
+    *("farsite", "folders"),
+)
 """Modules, in the order in which they are tried."""
 
 

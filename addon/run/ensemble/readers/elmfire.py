@@ -67,11 +67,11 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     notes = ["arrival times are in s", *([note] if note else [])]
     if ignitions > 1:
         notes.append(f"the cases have {ignitions} ignitions, so they do not forecast one fire")
-    return MemberSet(head, grid, _members(cases, set(known), grid.shape, head.horizon), notes)
+    return MemberSet(head, grid, _members(cases, set(known), like, head.horizon), notes)
 
 
 def _members(
-    cases: dict[str, Path], known: set[str], shape: tuple[int, int], horizon: float
+    cases: dict[str, Path], known: set[str], like: raster.Raster, horizon: float
 ) -> Iterator[write.Read]:
     for case in sorted({*cases, *known}):
         member = Member(case)
@@ -79,20 +79,21 @@ def _members(
             yield member, f"is in {_STATISTICS}, and has no arrival times"
             continue
         try:
-            values = _map(cases[case]) if _MAP.match(cases[case].stem) else _list(cases[case], shape)
+            found = raster.read(cases[case]) if _MAP.match(cases[case].stem) else None
+            values = _map(found) if found else _list(cases[case], like.values.shape)
         except InputError as error:
             yield member, error
             continue
-        if values.shape != shape:
-            raise input_error(cases[case], f"has {values.shape} cells where others have {shape}")
+        if found and not found.has_cells_of(like):
+            reason = f"has other cells than {like.path.name}; members need cells of one grid"
+            raise input_error(cases[case], reason)
         values[~(values <= horizon)] = np.inf
         yield member, values if np.isfinite(values).any() else "nothing burns"
 
 
-def _map(path: Path) -> NDArray[np.float32]:
-    """Read an arrival map, s; inf without data."""
-    values = raster.read(path).values
-    return np.where(values >= 0.0, values, np.inf).astype(np.float32)
+def _map(found: raster.Raster) -> NDArray[np.float32]:
+    """Return the arrival times of a map, s; inf without data."""
+    return np.where(found.values >= 0.0, found.values, np.inf).astype(np.float32)
 
 
 def _list(path: Path, shape: tuple[int, int]) -> NDArray[np.float32]:

@@ -39,12 +39,12 @@ MEANINGS = (
         "the arrival maps of its cases (time_of_arrival_CASE_SECONDS.tif)",
     ),
     Meaning(
-        r"burn_count.*|burn_probability_.*t\d+",
+        r"burn_count.*|burn_probability(_.*)?_t\d+",
         "GridFire's share of simulations that burned a cell by a time",
         "arrival times of each simulation",
     ),
     Meaning(
-        r"fire_probability.*|mean_arrival_time.*|min_arrival_time.*",
+        r"fire_probability.*|(mean|min)_arrival_time.*|(fireline_intensity|ros)_(mean|max)_\d+",
         "PROPAGATOR's share of realisations, or a statistic of those that burned",
         "arrival times of each realisation",
     ),
@@ -54,14 +54,19 @@ MEANINGS = (
         "arrival times of each simulation",
     ),
     Meaning(
-        r"(fsim|flp\d|cflp|bp|iftdss|flammap).*",
-        "a yearly probability, or one given an ignition somewhere, not a forecast of one fire",
+        r"(fsim|bp_|flp\d).*",
+        "FSim's yearly probability, over drawn ignitions and weather of many years",
         "simulations of this fire",
     ),
     Meaning(
-        r".*_landfire_(10|30|50|70|90)_.*|.*_(10|30|50|70|90)_\d{3}|time-of-arrival_\d\d",
+        r"(flammap|iftdss|cflp|cfl_)(?!.*arrival).*",
+        "a probability given an ignition somewhere in the area, in one weather (FlamMap, IFTDSS)",
+        "simulations of this fire",
+    ),
+    Meaning(
+        r".*_landfire_\d\d_.*|[a-z]+-[a-z-]+_\d\d_\d{3}|time-of-arrival(_\d\d)?",
         "one simulation that stands for a rank of fire size, not a quantile of arrival times",
-        'all simulations, or a list of the ranks with kind = "ranked"',
+        "time-of-arrival_10.tif to time-of-arrival_90.tif with --members, for an ensemble of ranks",
     ),
     Meaning(
         r".*burn[_ -]?prob.*",

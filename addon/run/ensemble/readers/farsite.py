@@ -1,0 +1,88 @@
+"""Reader of FARSITE or FlamMap: a folder of rasters of arrival times, in minutes, one for each simulation.
+
+The name of such a raster ends with "Arrival Time" or "ArrivalTime". Folders of one simulation each are read
+by `folders`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from ....errors import InputError, input_error
+from ...models import from_arrival_time, probability_maps, raster
+from ...models.model import Options
+from .. import write
+from ..manifest import Manifest, Member
+from ..member_set import MemberSet
+from .files_in import files_in
+
+NAME = "FARSITE or FlamMap"
+
+_MINUTE = 60.0
+_NAME = re.compile(r"[ _-]*arrival[ _]?time$", re.IGNORECASE)
+
+
+def sniff(paths: list[Path]) -> bool:
+    """Check for several rasters of arrival times."""
+    return len(_maps(paths)) > 1
+
+
+def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
+    """Read one member for each raster."""
+    maps = _maps(paths)
+    opened = {name: _opened(path) for name, path in maps.items()}
+    good = [each for each in opened.values() if isinstance(each, raster.Raster)]
+    if not good:
+        raise input_error(
+            paths[0], f"none of its {len(maps)} rasters can be read; {next(iter(opened.values()))}"
+        )
+    first = good[0]
+    for each in good[1:]:
+        if not each.has_cells_of(first):
+            raise input_error(
+                each.path, f"has other cells than {first.path.name}; members need cells of one grid"
+            )
+    grid, note = first.grid(options.projection, options.at)
+    last = max(float(np.nanmax(each.values, initial=0.0)) for each in good) * _MINUTE
+    head = Manifest(
+        name=options.name or first.path.parent.name,
+        model=NAME,
+        issued=from_arrival_time.begun(options, first.path),
+        horizon=horizon or max(_MINUTE, last),
+        members=(),
+        zone=options.zone,
+        source=f"{len(maps)} rasters of {NAME}",
+    )
+    notes = ["arrival times are in minutes", *([note] if note else [])]
+    return MemberSet(head, grid, _members(opened, head.horizon), notes)
+
+
+def _members(opened: dict[str, raster.Raster | InputError], horizon: float) -> Iterator[write.Read]:
+    for name, read in opened.items():
+        if isinstance(read, InputError):
+            yield Member(name), read
+            continue
+        seconds = np.where(read.values >= 0.0, read.values * np.float32(_MINUTE), np.float32(np.inf))
+        seconds[seconds > horizon] = np.inf
+        yield Member(name), seconds if np.isfinite(seconds).any() else "nothing burns"
+
+
+def _opened(path: Path) -> raster.Raster | InputError:
+    """Read a raster; an error is the reason why the member is left out."""
+    try:
+        return raster.read(path)
+    except InputError as error:
+        return error
+
+
+def _maps(paths: list[Path]) -> dict[str, Path]:
+    """Return the raster of each simulation, by its name."""
+    found = {}
+    for path in files_in(paths):
+        if _NAME.search(path.stem) and not probability_maps.refusal(path) and raster.is_raster(path):
+            found[_NAME.sub("", path.stem) or path.stem] = path
+    return found
