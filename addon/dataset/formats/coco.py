@@ -39,7 +39,9 @@ def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
             panoptic.append(_panoptic(set_folder, truth, masks, pictures))
         head = _head(members)
         things = [_category(each.id, each.name) for each in common.THINGS]
-        all_kinds = [_category(each.id, each.name) | {"isthing": int(each.has_instances)} for each in CATEGORIES]
+        all_kinds = [
+            _category(each.id, each.name) | {"isthing": int(each.has_instances)} for each in CATEGORIES
+        ]
         content = head | {"annotations": instances, "categories": things}
         common.write_json(out / FOLDER / f"instances_{split}.json", content)
         content = head | {"annotations": panoptic, "categories": all_kinds}
