@@ -203,6 +203,46 @@ def _parser() -> argparse.ArgumentParser:
     zone = "time zone of printed times, such as Europe/Paris (offset of --start, otherwise by longitude)"
     made.add_argument("--zone", default="", help=zone)
 
+    watch = command("watch", "convert the output of a model that is still running", help_texts.WATCH)
+    watch.add_argument(
+        "run",
+        metavar="RUN",
+        nargs="+",
+        type=types.path,
+        help="file or folder that the model writes; then further files, such as a mapping",
+    )
+    watch.add_argument("--out", metavar="DIR", type=types.path, required=True, help="folder to write")
+    watch.add_argument(
+        "--every", metavar="SECONDS", type=types.count, default=5, help="time between polls, s (5)"
+    )
+    watch.add_argument(
+        "--end",
+        metavar="TIME",
+        type=types.moment,
+        help="last model time, such as 2014-09-17T16:00-07:00 (from the log of the model)",
+    )
+    watch.add_argument(
+        "--idle",
+        metavar="SECONDS",
+        type=types.count,
+        default=0,
+        help="end if the files have not changed for this time, s (never)",
+    )
+    watch.add_argument(
+        "--start", metavar="TIME", default="", help="start time of the run, if the files do not give it"
+    )
+    watch.add_argument(
+        "--at", metavar="LAT,LON", default="", help="centre of a grid without geographic coordinates"
+    )
+    watch.add_argument(
+        "--projection",
+        metavar="CRS",
+        default="",
+        help="coordinate reference system of grids in metres, such as EPSG:5070",
+    )
+    watch.add_argument("--name", default="", help="name of the run (name of the folder and model)")
+    watch.add_argument("--zone", default="", help=zone)
+
     new = command("new", "write a short scene file that fits a run", help_texts.NEW)
     new.add_argument("run", metavar="RUN", type=types.path, help="run folder")
     new.add_argument(

@@ -265,6 +265,29 @@ def convert(arguments: argparse.Namespace) -> None:
         reporter.close()
 
 
+def watch(arguments: argparse.Namespace) -> int:
+    """Convert the output of a model that is still running."""
+    from .jobs import watch
+
+    source, *extra = arguments.run
+    request = watch.WatchRequest(
+        source=source,
+        extra=tuple(extra),
+        out=arguments.out,
+        every=float(arguments.every),
+        end=arguments.end,
+        idle=float(arguments.idle),
+        start=arguments.start,
+        at=arguments.at,
+        projection=arguments.projection,
+        name=arguments.name,
+        zone=arguments.zone,
+    )
+    state = watch.run(request, say)
+    result(arguments.out)
+    return 1 if state == "failed" else 0
+
+
 def build(arguments: argparse.Namespace) -> None:
     """Build the scene and save it."""
     from .errors import UsageError

@@ -41,6 +41,19 @@ several runs, models or places are rejected. Clocks show the time of --zone; wit
 command resumes a stopped conversion. A conversion that reads and writes nothing for ten minutes is ended,
 as the file is probably damaged. Needs optional packages: pip install 'firetwin[models]'."""
 
+WATCH = """\
+Polls the files of WRF-SFIRE, CFBM, or CF netCDF or zarr with a heat flux. It locks no file, so that the model
+can go on writing. A time is complete when the model's log (rsl.error.0000) names it, or a later time exists.
+Otherwise it is guessed: size and modification time of its file are equal in two polls.
+
+DIR/times.json              accepted times: file, reason, hash of the values
+DIR/status.json, index.html state: waiting, running, stalled, ended, failed or restarted
+DIR/generation_1/000012     run of the first 12 times
+
+DIR is accepted wherever a run is; its newest times are read. If the model starts again, generation_2 begins.
+3D fields are not converted; use `convert` when the model has ended. Repeating the command continues a watch.
+The exit status is 1 if the model failed."""
+
 NEW = """\
 Selects the most active part of the run, and fits cameras to the fire: an overview from upwind with the sun
 behind it, a chase camera at the head, a close view of a flank, and a view from above. Each camera is moved

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -47,6 +47,10 @@ class Options:
         Name of the run; "": the folder's name with the model's.
     zone
         Time zone of the run, by default from the offset of `start`; "": none.
+    growing
+        The files are still being written: times without values at their end are left out.
+    until
+        Last time to read; None: all.
     """
 
     start: datetime | None = None
@@ -56,6 +60,8 @@ class Options:
     mapping: Path | None = None
     name: str = ""
     zone: str = ""
+    growing: bool = False
+    until: datetime | None = None
 
     @classmethod
     def of(
@@ -97,6 +103,8 @@ class Model:
         Averaging time of heat fluxes before each time, s; None: the whole interval.
     levels
         Shape [nz] of each 3D field.
+    sources
+        File of each time, and its index among the times of that file; empty if times are computed.
     """
 
     source: str
@@ -114,6 +122,7 @@ class Model:
     zone: str = ""
     mean_s: float | None = None
     levels: dict[str, int] = field(default_factory=dict)
+    sources: list[tuple[Path, int]] = field(default_factory=list)
     assumptions: list[str] = field(default_factory=list)
     close: Callable[[], None] = lambda: None
 
@@ -123,10 +132,19 @@ class Model:
             return self.fuel_grid
         return self.air if self.air is not None and (field in OF_AIR or field in self.levels) else self.grid
 
+    def moment(self, index: int) -> datetime:
+        """Return the UTC time of a time index."""
+        return self.start + timedelta(seconds=float(self.times[index]))
+
     @property
     def grids(self) -> dict[str, Grid]:
         """Each grid of the run, by prefix of its axis names."""
         return {"": self.grid, "fuel_": self.fuel_grid} | ({} if self.air is None else {"air_": self.air})
+
+
+def read_until(moment: datetime, options: Options) -> bool:
+    """Return whether a time of a file is to be read."""
+    return options.until is None or moment <= options.until
 
 
 def _moment(text: str) -> datetime:

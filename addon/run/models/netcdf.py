@@ -17,6 +17,8 @@ _MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
 _OPEN = 8  # open files at most
 _LARGEST = 1 << 31  # bytes of one read at most
 _CACHE = 1 << 28  # bytes of cached unpacked chunks
+UNWRITTEN = 9.9e35
+"""Lower limit of netCDF's default fill values of floats, 9.97e36: values that are not written yet."""
 
 
 def is_netcdf(path: Path) -> bool:

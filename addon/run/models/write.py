@@ -26,7 +26,7 @@ from .model import LONGEST, Model
 JOURNAL = "journal.json"
 _OFTEN = 1 << 29  # bytes between journal entries
 _SECONDS = 15.0
-_FILL = {
+FILL = {
     "heat_flux": 0.0,
     "burned_fraction": 0.0,
     "smoke_3d": 0.0,
@@ -93,7 +93,7 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
         for name, get in model.still.items():
             where = model.grid_of(name).placed
             with reading(model.files[0]):
-                values = where.put(get(), _FILL.get(name))
+                values = where.put(get(), FILL.get(name))
             _save(part / f"{name}.npy", values, where.shape)
         for before, where in placed.items():
             _save(part / f"{before}latitude.npy", where.latitude)
@@ -134,7 +134,7 @@ def _moving(
                 progress(index, count, what)
                 for name, get in model.moving.items():
                     with reading(model.files[0]):
-                        values = _put(model, name, get(index))
+                        values = on_run_grid(model, name, get(index))
                     if values.shape != shapes[name][1:]:
                         reason = f"{name} is {values.shape} at time {index + 1}, not {shapes[name][1:]}"
                         raise input_error(model.files[0], reason)
@@ -156,9 +156,10 @@ def _moving(
             file.close()
 
 
-def _put(model: Model, name: str, values: NDArray) -> NDArray[np.float32]:
+def on_run_grid(model: Model, name: str, values: NDArray) -> NDArray[np.float32]:
+    """Resample a horizontal or 3D field to the run's grid."""
     where = model.grid_of(name).placed
-    return where.put_share(values) if name == "burned_fraction" else where.put(values, _FILL.get(name))
+    return where.put_share(values) if name == "burned_fraction" else where.put(values, FILL.get(name))
 
 
 def _open(path: Path, shape: tuple[int, ...], done: int) -> BinaryIO:

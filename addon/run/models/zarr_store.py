@@ -9,6 +9,7 @@ code.
 from __future__ import annotations
 
 import base64
+import sys
 import warnings
 import zipfile
 from collections.abc import Iterator
@@ -111,6 +112,36 @@ class File(netcdf.File):
     def close(self) -> None:
         """Close the store."""
         self._store.close()
+
+
+def written(path: Path, names: list[str]) -> int:
+    """Count the times of a store up to the last one of which any of these arrays has a chunk.
+
+    Metadata of zarr gets the number of times before the chunks are written.
+    """
+    if not path.is_dir():
+        return sys.maxsize  # a ZIP archive is written at once
+    store = File(path)
+    try:
+        counts = [0]
+        for name in names:
+            array = store.variables[name].array
+            long = (getattr(array, "shards", None) or array.chunks)[0]
+            counts += [(_time_of_chunk(each, path / name) + 1) * long for each in _chunk_files(path / name)]
+        return max(counts)
+    finally:
+        store.close()
+
+
+def _chunk_files(folder: Path) -> Iterator[Path]:
+    return (each for each in folder.rglob("*") if each.is_file() and each.name[-1].isdigit())
+
+
+def _time_of_chunk(file: Path, folder: Path) -> int:
+    """Return the first index in the name of a chunk: ``12.0.0``, ``12/0/0``, ``c/12/0/0`` or ``c.12.0.0``."""
+    parts = file.relative_to(folder).as_posix().replace(".", "/").split("/")
+    number = parts[1] if parts[0] == "c" and len(parts) > 1 else parts[0]
+    return int(number) if number.isdigit() else -1
 
 
 class _Attributes:

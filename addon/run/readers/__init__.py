@@ -39,7 +39,7 @@ def open(path: str | Path) -> Run:
         if not folder.sniff(path) and foreign(path):
             reason = f"is a fire model's own output; make a run of it: firetwin convert {path} --out RUN"
             raise input_error(path, reason)
-        found = run.open(path)  # which reports errors
+        found = folder.open(path) if folder.sniff(path) else run.open(path)  # which reports errors
         _check_years(found)
         return found
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...errors import input_error
 from ..models import arrival, companion_rasters, fuels, netcdf
 from ..models.grid import Grid
-from ..models.model import Model, Options
+from ..models.model import Model, Options, read_until
 
 NAME = "output of the Community Fire Behavior Model"
 
@@ -33,7 +33,7 @@ def sniff(path: Path) -> bool:
 def read(paths: list[Path], options: Options) -> Model:
     """Read the series as a model."""
     by_time = {_moment(path): path for path in sorted(paths) if sniff(path)}
-    moments = sorted(by_time)
+    moments = sorted(moment for moment in by_time if read_until(moment, options))
     ours = [by_time[moment] for moment in moments]
     times = np.array([(moment - moments[0]).total_seconds() for moment in moments])
     files = netcdf.Files()
@@ -96,6 +96,7 @@ def read(paths: list[Path], options: Options) -> Model:
         files=ours,
         projection="2-D latitude and longitude (Lambert, by geo_em.d01.nc)",
         mean_s=0.0,
+        sources=[(path, 0) for path in ours],
         assumptions=notes + land.assumptions,
         close=files.close,
     )

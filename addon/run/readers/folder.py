@@ -1,4 +1,7 @@
-"""Reader of Firetwin's own format: a folder with run.toml, and a file or a folder of files per field."""
+"""Reader of Firetwin's own format: a folder with run.toml, and a file or a folder of files per field.
+
+A folder of `firetwin watch` is the newest revision of its run.
+"""
 
 from __future__ import annotations
 
@@ -7,14 +10,18 @@ from pathlib import Path
 from firetwin_core import run
 from firetwin_core.run import Run
 
+from ..growing import watched
+
 NAME = "a folder with run.toml"
 
 
 def sniff(path: Path) -> bool:
-    """Check whether the folder contains a run.toml."""
-    return (path / "run.toml").is_file()
+    """Check whether the folder contains a run.toml, or is a watched folder with a time."""
+    return (path / "run.toml").is_file() or (path / watched.TIMES).is_file()
 
 
 def open(path: Path) -> Run:
     """Open the run."""
+    if not (path / "run.toml").is_file() and (newest := watched.newest(path)):
+        return run.open(newest)
     return run.open(path)

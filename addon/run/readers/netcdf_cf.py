@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ...errors import input_error
 from ..models import companion_rasters, from_arrival_time, masks, netcdf, optional_packages, zarr_store
 from ..models.grid import Grid
-from ..models.model import Model, Options
+from ..models.model import Model, Options, read_until
 
 NAME = "netCDF or zarr with latitude, longitude and time"
 
@@ -77,10 +77,21 @@ def read(paths: list[Path], options: Options) -> Model:
         maps = maps_with(still("fuel_arrival_time").astype(np.float64))
         return from_arrival_time.model(maps, grid, land, options, source, ours, notes)
 
+    def moments(path: Path) -> list[datetime]:
+        every = _moments(files(path), axes, options)
+        return every[: _written(files(path), fields)] if options.growing else every
+
     frames = sorted(
-        ((moment, path, i) for path in ours for i, moment in enumerate(_moments(files(path), axes, options))),
+        (
+            (moment, path, i)
+            for path in ours
+            for i, moment in enumerate(moments(path))
+            if read_until(moment, options)
+        ),
         key=lambda frame: frame[0],
     )
+    if not frames:
+        raise first.error("has no times yet")
     frames = [each for k, each in enumerate(frames) if k == 0 or each[0] > frames[k - 1][0]]
     start = frames[0][0]
     if "heat_flux" not in fields:
@@ -109,6 +120,7 @@ def read(paths: list[Path], options: Options) -> Model:
         moving={name: partial(moved, name) for name in (*_MOVING, *_LEVELS) if name in fields},
         files=ours,
         projection=projection,
+        sources=[(path, i) for _, path, i in frames],
         close=files.close,
     )
     model.levels = {name: first.shape(fields[name]["variable"])[1] for name in _LEVELS if name in fields}
@@ -197,6 +209,8 @@ def _moments(file: netcdf.File, axes: dict[str, str], options: Options) -> list[
         str(file.attribute("units", name, "")),
         str(file.attribute("calendar", name, "standard")),
     )
+    if options.growing:
+        values = values[: _first_unwritten(values)]
     if " since " not in units:
         begin = from_arrival_time.begun(options, file.path)
         return [begin + timedelta(seconds=float(value)) for value in values]
@@ -217,6 +231,20 @@ def _moments(file: netcdf.File, axes: dict[str, str], options: Options) -> list[
             )
             for each in np.atleast_1d(dates)
         ]
+
+
+def _first_unwritten(values: NDArray[np.float64]) -> int:
+    """Return the index of the first time that has no value yet, or is not later than the one before."""
+    bad = ~np.isfinite(values) | (np.abs(values) >= netcdf.UNWRITTEN)
+    bad[1:] |= ~(values[1:] > values[:-1])
+    return int(np.argmax(bad)) if bad.any() else len(values)
+
+
+def _written(file: netcdf.File, fields: dict[str, dict[str, Any]]) -> int:
+    """Count the times up to which the fields of a growing file exist: the shortest array counts."""
+    names = [fields[name]["variable"] for name in (*_MOVING, *_LEVELS) if name in fields]
+    counts = [file.shape(name)[0] for name in names]
+    return min([*counts, *([zarr_store.written(file.path, names)] if zarr_store.is_store(file.path) else [])])
 
 
 def _some(file: netcdf.File) -> str:

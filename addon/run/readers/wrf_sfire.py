@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ...errors import Error
 from ..models import arrival, companion_rasters, fuels, netcdf
 from ..models.grid import Grid
-from ..models.model import Model, Options
+from ..models.model import Model, Options, read_until
 from ..models.raster import local
 
 NAME = "WRF-SFIRE output"
@@ -47,7 +47,7 @@ class _Frame:
 class _Wrf:
     """The files as one time series."""
 
-    def __init__(self, paths: list[Path]) -> None:
+    def __init__(self, paths: list[Path], options: Options) -> None:
         self.files = netcdf.Files()
         by_time: dict[datetime, _Frame] = {}
         for path in sorted(paths):
@@ -55,7 +55,7 @@ class _Wrf:
                 by_time[moment] = _Frame(
                     path, index, moment
                 )  # of a time that is there twice the later file's
-        self.frames = [by_time[moment] for moment in sorted(by_time)]
+        self.frames = [by_time[moment] for moment in sorted(by_time) if read_until(moment, options)]
         self.ny, self.nx, self.sy, self.sx = _sizes(self.first)
         for path in {frame.path for frame in self.frames}:
             if _sizes(self.files(path)) != (self.ny, self.nx, self.sy, self.sx):
@@ -100,7 +100,7 @@ class _Wrf:
 
 def read(paths: list[Path], options: Options) -> Model:
     """Read the series as a model."""
-    wrf = _Wrf([path for path in paths if sniff(path)])
+    wrf = _Wrf([path for path in paths if sniff(path)], options)
     land = companion_rasters.find(paths)
     notes: list[str] = []
     moments = [frame.moment for frame in wrf.frames]
@@ -122,6 +122,7 @@ def read(paths: list[Path], options: Options) -> Model:
         files=sorted({frame.path for frame in wrf.frames}),
         projection=_projection(wrf.first),
         mean_s=float(wrf.first.attribute("DT", otherwise=0.0)),
+        sources=[(frame.path, frame.index) for frame in wrf.frames],
         close=wrf.files.close,
     )
     notes += [said, "latitude and longitude on WRF's sphere of 6370 km are used as WGS84 coordinates"]

@@ -1,0 +1,178 @@
+"""Revisions of a growing run: run folders with one more time each, published by one rename.
+
+Files of earlier times and constant fields are hard links to the same files of the revision before.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import shutil
+import uuid
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+from firetwin_core import run
+from numpy.typing import NDArray
+
+from ... import files
+from ...errors import InputError, input_error, reading, writing
+from ..models import netcdf, write
+from ..models.model import Model
+from . import watched
+from .watched import Accepted
+
+_KEPT = 2  # revisions of a generation that stay, as a reader may have the last but one open
+_ARRIVAL = "fuel_arrival_time"
+
+Fields = dict[str, NDArray[np.float32]]
+
+
+class UnwrittenError(Exception):
+    """A time has values that the model has not written yet."""
+
+
+def read_time(model: Model, index: int) -> Fields:
+    """Read the horizontal fields of a time, on the run's grids.
+
+    Raises
+    ------
+    UnwrittenError
+        A field has a fill value of netCDF, which a model never writes.
+    InputError
+        The file cannot be read.
+    """
+    found: Fields = {}
+    for name, get in model.moving.items():
+        if name in model.levels:
+            continue
+        with reading(model.sources[index][0]):
+            values = get(index)
+        if (np.abs(np.nan_to_num(np.asarray(values, np.float64))) >= netcdf.UNWRITTEN).any():
+            raise UnwrittenError(name)
+        found[name] = write.on_run_grid(model, name, values)
+    return found
+
+
+def digest(fields: Fields) -> str:
+    """Hash the values of a time (SHA-256)."""
+    hashed = hashlib.sha256()
+    for name in sorted(fields):
+        hashed.update(name.encode())
+        hashed.update(np.ascontiguousarray(fields[name], "<f4").tobytes())
+    return hashed.hexdigest()
+
+
+def publish(
+    folder: Path, model: Model, before: list[Accepted], new: list[Accepted], values: list[Fields], inputs: str
+) -> Path:
+    """Write the run of all accepted times of a generation, and return its folder.
+
+    Parameters
+    ----------
+    model
+        Model whose times end with the last accepted one.
+    before, new
+        Accepted times of the generation: in the revision before, and the others.
+    values
+        Fields of the times of `new`.
+    inputs
+        Text of the inputs for ``run.toml``.
+
+    Raises
+    ------
+    InputError
+        The disk is full, or the fields make no run.
+    """
+    target = watched.revision_folder(folder, new[-1].generation, new[-1].revision)
+    part = target.with_name(f".{target.name}.{uuid.uuid4().hex[:12]}.part")
+    last = watched.revision_folder(folder, before[-1].generation, before[-1].revision) if before else None
+    try:
+        with writing(folder):
+            part.mkdir(parents=True)
+            _times(part, last, len(before), values, model.files[0])
+            _constants(part, last, model, new[-1].moment)
+            seconds = np.array([each.seconds for each in (*before, *new)])
+            text = write.description(replace(model, times=seconds), inputs)
+            files.write_text(part / "run.toml", text)
+            _check(part, model)
+            shutil.rmtree(target, ignore_errors=True)  # left by a watch that was killed
+            part.rename(target)
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+    return target
+
+
+def remove_old(folder: Path, generation: int) -> None:
+    """Remove revisions of a generation except the last ones."""
+    every = sorted(watched.revision_folder(folder, generation, 0).parent.glob("[0-9]*"))
+    for old in every[:-_KEPT]:
+        shutil.rmtree(old, ignore_errors=True)
+
+
+def _times(part: Path, last: Path | None, count: int, values: list[Fields], source: Path) -> None:
+    """Link the files of earlier times, and write the new ones."""
+    names = sorted(values[0])
+    if last is not None:
+        known = sorted(each.name for each in last.iterdir() if each.is_dir())
+        if known != names:
+            raise input_error(source, f"has the fields {', '.join(names)}, and before {', '.join(known)}")
+    for name in names:
+        (part / name).mkdir()
+        for index in range(count):
+            assert last is not None
+            link(last / name / f"{index:06d}.npy", part / name / f"{index:06d}.npy")
+        for index, fields in enumerate(values, start=count):
+            path = part / name / f"{index:06d}.npy"
+            files.write(path, lambda to, array=fields[name]: np.save(to, array))  # type: ignore[misc]
+
+
+def _constants(part: Path, last: Path | None, model: Model, until: datetime) -> None:
+    """Link the constant fields, or write them in a first revision; arrival times are always written."""
+    if last is not None:
+        for each in last.glob("*.npy"):
+            if each.stem != _ARRIVAL:
+                link(each, part / each.name)
+    for name, get in model.still.items():
+        if last is not None and name != _ARRIVAL:
+            continue
+        where = model.grid_of(name).placed
+        with reading(model.files[0]):
+            values = where.put(get(), write.FILL.get(name))
+        if name == _ARRIVAL:
+            values = np.asarray(values, np.float64)
+            end = (until - model.start).total_seconds()
+            values = np.where(values <= end, values, np.nan)
+        files.write(part / f"{name}.npy", lambda to, array=values: np.save(to, array))  # type: ignore[misc]
+    if last is None:
+        for before, grid in model.grids.items():
+            for axis in ("latitude", "longitude"):
+                array = getattr(grid.placed, axis)
+                files.write(part / f"{before}{axis}.npy", lambda to, array=array: np.save(to, array))  # type: ignore[misc]
+
+
+def link(old: Path, new: Path) -> None:
+    """Make a hard link, or a copy on a file system without links."""
+    try:
+        os.link(old, new)
+    except OSError:
+        shutil.copy2(old, new)
+
+
+def _check(part: Path, model: Model) -> None:
+    """Open the new run as a check."""
+    try:
+        run.open(part)
+    except InputError as error:
+        reason = f"makes no run: {Path(error.path).stem}: {error.reason}; it is most likely incomplete"
+        raise input_error(model.files[0], reason) from None
+
+
+def remove_parts(folder: Path) -> None:
+    """Remove temporary folders of a killed watch."""
+    for each in folder.glob("generation_*/.*.part"):
+        with contextlib.suppress(OSError):
+            shutil.rmtree(each)

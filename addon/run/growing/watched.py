@@ -1,0 +1,137 @@
+"""Watched folder: accepted times of a growing run, its newest revision, and its state."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from datetime import datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+from ... import files
+from ...errors import input_error
+
+TIMES, STATUS, PAGE = "times.json", "status.json", "index.html"
+FINAL = ("ended", "failed")
+"""States in which no times follow."""
+
+
+@dataclass(frozen=True)
+class Accepted:
+    """An accepted time.
+
+    Attributes
+    ----------
+    generation
+        Number of the model's start, from 1.
+    revision
+        Number of times of the first run that has this time.
+    time
+        Model time, ISO 8601 in UTC.
+    seconds
+        Model time, s since the start of the generation's run.
+    source, index
+        File of the model, and index of the time in it.
+    complete
+        Reason why the time counts as complete: "log", "next", "end" or "guessed".
+    sha256
+        Hash of the time's values.
+    accepted
+        Clock time at which it was accepted, ISO 8601 in UTC.
+    """
+
+    generation: int
+    revision: int
+    time: str
+    seconds: float
+    source: str
+    index: int
+    complete: str
+    sha256: str
+    accepted: str
+
+    @property
+    def moment(self) -> datetime:
+        """Model time."""
+        return datetime.fromisoformat(self.time)
+
+    @property
+    def clock(self) -> float:
+        """Clock time at which it was accepted, s."""
+        return datetime.fromisoformat(self.accepted).timestamp()
+
+    @property
+    def origin(self) -> datetime:
+        """Start of the generation's run."""
+        return self.moment - timedelta(seconds=self.seconds)
+
+
+def is_watched(folder: Path) -> bool:
+    """Return whether `firetwin watch` writes or wrote to a folder."""
+    return (folder / TIMES).is_file() or (folder / STATUS).is_file()
+
+
+def times(folder: Path) -> list[Accepted]:
+    """List the accepted times of all generations.
+
+    Raises
+    ------
+    InputError
+        ``times.json`` is damaged.
+    """
+    path = folder / TIMES
+    try:
+        return [Accepted(**each) for each in json.loads(path.read_text(encoding="utf-8"))]
+    except FileNotFoundError:
+        return []
+    except (OSError, ValueError, TypeError) as error:
+        raise input_error(path, f"cannot be read ({error}); remove the folder and watch again") from None
+
+
+def last_generation(accepted: list[Accepted]) -> list[Accepted]:
+    """Return the times of the last generation."""
+    return [each for each in accepted if each.generation == accepted[-1].generation]
+
+
+def append(folder: Path, before: list[Accepted], new: list[Accepted]) -> list[Accepted]:
+    """Append accepted times, and return all.
+
+    Raises
+    ------
+    InputError
+        Another process wrote to the folder.
+    """
+    if times(folder) != before:
+        reason = "changed meanwhile: another watch writes to this folder; choose another --out"
+        raise input_error(folder / TIMES, reason)
+    every = [*before, *new]
+    text = ",\n".join(json.dumps(asdict(each)) for each in every)
+    files.write_text(folder / TIMES, f"[\n{text}\n]\n")
+    return every
+
+
+def revision_folder(folder: Path, generation: int, revision: int) -> Path:
+    """Return the folder of a revision: a run of the first `revision` times."""
+    return folder / f"generation_{generation}" / f"{revision:06d}"
+
+
+def newest(folder: Path) -> Path | None:
+    """Return the run of all accepted times of the last generation; None before the first."""
+    accepted = times(folder)
+    if not accepted:
+        return None
+    return revision_folder(folder, accepted[-1].generation, accepted[-1].revision)
+
+
+def status(folder: Path) -> dict[str, Any]:
+    """Read ``status.json``; empty if there is none."""
+    try:
+        found = json.loads((folder / STATUS).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def is_final(folder: Path) -> bool:
+    """Return whether no further times follow: the model ended or failed."""
+    return status(folder).get("state") in FINAL

@@ -1,0 +1,197 @@
+"""Growing runs: complete times are converted once, incomplete ones wait, and a restart keeps the old run."""
+
+import json
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import growing_model
+import numpy as np
+import pytest
+from firetwin.errors import InputError
+from firetwin.jobs import watch
+from firetwin.run import readers
+from firetwin.run.growing import acceptance, model_log, states, watched
+
+pytest.importorskip("netCDF4")
+KINDS = ("netcdf3", "netcdf4", "zarr")
+NAMES = {"netcdf3": "fire.nc", "netcdf4": "fire.nc", "zarr": "fire.zarr"}
+BEGIN = datetime(2020, 7, 1, 20, tzinfo=UTC)
+
+
+@pytest.fixture
+def in_process(monkeypatch):
+    """Run steps in this process; tests/system starts workers."""
+    monkeypatch.setenv("HDF5_USE_FILE_LOCKING", "FALSE")
+    call = lambda _, task, **__: watch.in_process(**task)  # noqa: E731
+    monkeypatch.setattr(watch.worker, "run", call)
+
+
+class Watched:
+    """A model and its watch, poll by poll."""
+
+    def __init__(self, folder: Path, kind: str, **options) -> None:
+        pytest.importorskip("zarr" if kind == "zarr" else "netCDF4")
+        self.source, self.out, self.kind = folder / "model", folder / "DIR", kind
+        self.source.mkdir()
+        self.said = []
+        self.path = self.source / NAMES[kind]
+        self.model = growing_model.Writer(self.path, kind)
+        self.watch = watch._Watch(watch.WatchRequest(self.source, self.out, **options), self.said.append)
+
+    def poll(self, times=1) -> str:
+        for _ in range(times):
+            self.watch.poll()
+        return self.watch.state
+
+    def accepted(self) -> list[tuple[float, str]]:
+        return [(each.seconds, each.complete) for each in watched.times(self.out)]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_time_is_read_when_the_next_one_exists_or_its_file_rests(in_process, tmp_path, kind):
+    run = Watched(tmp_path, kind)
+    assert run.poll() == "waiting"
+    run.model.append()
+    assert (run.poll(), run.accepted()) == ("waiting", [])
+    run.model.append()
+    assert (run.poll(), run.accepted()) == ("running", [(0.0, "next")])
+    assert run.poll() == "running"
+    assert run.accepted() == [(0.0, "next"), (600.0, "guessed")]
+    assert "guessed complete" in run.said[-1]
+    run.model.close()
+    found = readers.open(run.out)
+    assert list(found.times) == [0.0, 600.0]
+    for index in range(2):
+        np.testing.assert_array_equal(found.heat_flux(index), growing_model.flux(index))
+    page = (run.out / watched.PAGE).read_text()
+    assert "running" in page
+    assert "2020-07-01 20:10:00 UTC" in page
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_values_that_change_begin_a_generation_and_the_old_run_stays(in_process, tmp_path, kind):
+    run = Watched(tmp_path, kind)
+    for _ in range(3):
+        run.model.append()
+    run.poll(2)
+    run.model.close()
+    run.model = growing_model.Writer(run.path, kind)
+    run.model.append(0.5)
+    run.poll()  # times go back
+    run.model.append(0.5)
+    assert run.poll() == "restarted"
+    run.poll()
+    run.model.append(0.5)
+    assert run.poll() == "running"
+    run.model.close()
+    found = watched.times(run.out)
+    assert [each.generation for each in found] == [1, 1, 1, 2, 2]
+    np.testing.assert_array_equal(readers.open(run.out).heat_flux(1), growing_model.flux(1, 0.5))
+    old = readers.open(watched.revision_folder(run.out, 1, 3))
+    np.testing.assert_array_equal(old.heat_flux(2), growing_model.flux(2))
+    assert json.loads((run.out / watched.STATUS).read_text())["generation"] == 2
+
+
+@pytest.mark.parametrize("kind", ["netcdf3", "netcdf4"])
+def test_a_file_that_is_cut_short_gives_no_time(in_process, tmp_path, kind):
+    """Such a file of netCDF-3 opens, and its library returns zeros."""
+    run = Watched(tmp_path, kind)
+    for _ in range(3):
+        run.model.append()
+    run.model.close()
+    whole = run.path.read_bytes()
+    run.path.write_bytes(whole[: int(0.7 * len(whole))])
+    assert run.poll(3) == "waiting"
+    assert not run.accepted()
+    assert "not readable yet" in run.said[-1] or "not readable yet" in run.said[0]
+    run.path.write_bytes(whole)
+    run.poll(2)
+    assert len(run.accepted()) == 3
+
+
+def test_a_time_whose_values_are_not_written_waits(in_process, tmp_path):
+    run = Watched(tmp_path, "netcdf4")
+    run.model.append()
+    run.model.append()
+    run.model.data["time"][2] = 1200.0  # a later time, without its values
+    run.model.data["time"][3] = 1800.0
+    run.model.data.sync()
+    run.poll(3)
+    assert [seconds for seconds, _ in run.accepted()] == [0.0, 600.0]
+    run.model.close()
+
+
+def test_a_watch_continues_after_it_was_killed(in_process, tmp_path):
+    run = Watched(tmp_path, "netcdf3")
+    for _ in range(2):
+        run.model.append()
+    run.poll(2)
+    left = watched.revision_folder(run.out, 1, 3)  # a revision that was published, but not listed
+    left.mkdir()
+    (left.parent / ".000004.abc.part").mkdir()
+    run.model.append()
+    run.model.close()
+    run.watch = watch._Watch(run.watch.request, run.said.append)
+    run.poll(2)
+    assert [seconds for seconds, _ in run.accepted()] == [0.0, 600.0, 1200.0]
+    assert len(readers.open(run.out).times) == 3
+    assert not list(left.parent.glob(".*"))
+
+
+def test_two_watches_do_not_write_one_folder(in_process, tmp_path):
+    run = Watched(tmp_path, "netcdf3")
+    run.model.append()
+    run.poll(2)
+    run.model.close()
+    before = watched.times(run.out)
+    with pytest.raises(InputError, match="another watch"):
+        watched.append(run.out, [], before)
+
+
+def test_the_log_of_wrf_names_complete_times(tmp_path):
+    log = tmp_path / model_log.NAME
+    line = "Timing for Writing wrfout_d01_2020-07-01_20:0{}:00 for domain        1:    0.2 elapsed seconds\n"
+    log.write_text(line.format(0) + line.format(1))
+    found = model_log.read(tmp_path)
+    assert found.written == {"wrfout_d01_2020-07-01_20:00:00": 1, "wrfout_d01_2020-07-01_20:01:00": 1}
+    assert not found.succeeded
+    log.write_text(log.read_text() + "d01 2020-07-01_21:00:00 wrf: SUCCESS COMPLETE WRF\n")
+    assert model_log.read(tmp_path).succeeded
+    log.write_text(
+        "-------------- FATAL CALLED ---------------\nFATAL CALLED FROM FILE:  <stdin>  LINE: 419\n"
+    )
+    assert "LINE: 419" in model_log.read(tmp_path).failure
+    assert model_log.read(tmp_path / "missing") == model_log.ModelLog()
+
+
+def test_reasons_stop_at_the_first_incomplete_time():
+    path, other = Path("wrfout_a"), Path("wrfout_b")
+    listed = [acceptance.Listed(BEGIN + timedelta(minutes=k), path, k) for k in range(3)]
+    assert acceptance.reasons(listed, {}, [], False) == ["next", "next", ""]
+    assert acceptance.reasons(listed, {"wrfout_a": 3}, [], False) == ["log"] * 3
+    assert acceptance.reasons(listed, {}, ["wrfout_a"], False) == ["next", "next", "guessed"]
+    assert acceptance.reasons(listed, {}, [], True) == ["next", "next", "end"]
+    later = [*listed, acceptance.Listed(BEGIN + timedelta(minutes=3), other, 0)]
+    assert acceptance.reasons(later, {}, [], False) == ["next", "next", "next", ""]
+
+
+def test_states():
+    plain = {"ended": False, "failed": False, "restarted": False}
+    assert states.state([], 100.0, 5.0, **plain) == "waiting"
+    assert states.state([0.0, 60.0, 120.0], 290.0, 5.0, **plain) == "running"
+    assert states.state([0.0, 60.0, 120.0], 301.0, 5.0, **plain) == "stalled"
+    assert states.state([0.0, 0.1, 0.2], 1000.0, 5.0, **plain) == "running"  # one poll read all of them
+    assert states.state([0.0], 1.0, 5.0, **plain | {"restarted": True}) == "restarted"
+    assert states.state([0.0], 1.0, 5.0, **plain | {"ended": True}) == "ended"
+    assert states.state([0.0], 1.0, 5.0, **plain | {"ended": True, "failed": True}) == "failed"
+
+
+def test_a_run_ends_at_a_stated_time_or_when_its_files_rest(in_process, tmp_path):
+    run = Watched(tmp_path, "netcdf3", end=BEGIN + timedelta(seconds=600))
+    run.model.append()
+    run.model.append()
+    assert (run.poll(), run.poll()) == ("running", "ended")
+    run.model.close()
+    run.watch = watch._Watch(watch.WatchRequest(run.source, tmp_path / "two", idle=1e-6), run.said.append)
+    assert run.poll(2) == "ended"
+    assert [each.complete for each in watched.times(tmp_path / "two")] == ["next", "end"]
