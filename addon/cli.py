@@ -155,6 +155,15 @@ def _parser() -> argparse.ArgumentParser:
     cite = command("cite", "list the sources to cite with a run or a film", help_texts.CITE)
     cite.add_argument("run", metavar="RUN", type=types.path, help="run or ensemble folder, or a scene file")
     cite.add_argument("--json", action="store_true", help="write JSON")
+    cite.add_argument(
+        "--crate",
+        metavar="DIR",
+        type=types.path,
+        help="write an RO-Crate of the film in DIR, a folder of render",
+    )
+    cite.add_argument(
+        "--license", metavar="URL", default="", dest="licence", help="licence of the film, for --crate"
+    )
 
     made = command("convert", "convert a fire model's output to a run", help_texts.CONVERT)
     made.add_argument(

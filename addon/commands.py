@@ -157,26 +157,63 @@ def _score_members(arguments: argparse.Namespace) -> None:
 
 def cite(arguments: argparse.Namespace) -> None:
     """List the sources that a work with a run, an ensemble or a film has to cite."""
+    from .errors import UsageError
     from .run import citations
     from .run.ensemble import ensemble
-    from .shot import picture_credits
     from .shot.source import ShotSource
 
+    if arguments.licence and not arguments.crate:
+        raise UsageError("--license: is of --crate; name the folder of the film")
     if ensemble.sniff(arguments.run):
         rows = citations.of_ensemble(ensemble.open(arguments.run))
     elif arguments.run.suffix == ".toml" and arguments.run.is_file():
         shot = ShotSource(scene=str(arguments.run)).shot()
-        rows = [row for run in _runs(shot).values() for row in citations.of_run(run)]
-        credits = picture_credits.of_shot(shot)
-        rows += [{"kind": "pictures", "text": text} for text in (*credits.data, *credits.logo)]
-        rows = list({row["text"]: row for row in rows}.values())
+        rows = _sources(shot)
+        if arguments.crate:
+            result(_write_crate(shot, rows, arguments.crate, arguments.licence))
+            return
     else:
         rows = citations.of_run(_open_run(arguments.run))
+    if arguments.crate:
+        raise UsageError(f"--crate: {arguments.run} is not a scene file; name the scene file of the film")
     if arguments.json:
         json.dump(rows, sys.stdout, indent=1)
         print()
     else:
         result(citations.page(rows))
+
+
+def _sources(shot: Shot) -> list[dict[str, str]]:
+    """List the sources of a film, each once: of its runs, its forecast, and its pictures."""
+    from .run import citations
+    from .shot import forecast, picture_credits
+
+    rows = [row for run in _runs(shot).values() for row in citations.of_run(run)]
+    if shot.settings.forecast.ensemble:
+        rows += citations.of_ensemble(forecast.of(shot.settings))
+    credits = picture_credits.of_shot(shot)
+    rows += [{"kind": "pictures", "text": text} for text in (*credits.data, *credits.logo)]
+    return list({row["text"]: row for row in rows}.values())
+
+
+def _write_crate(shot: Shot, rows: list[dict[str, str]], out: Path, licence: str) -> Path:
+    """Describe the files of a film for archives."""
+    from .render import crate, manifest
+    from .run import content, methods
+    from .shot import forecast
+
+    terrain, ensemble = shot.settings.terrain, shot.settings.forecast.ensemble
+    report = Reporter("input hashes")
+    runs = {
+        label: (run.name, content.inputs(run, shot.settings.cache, (), report))
+        for label, run in _runs(shot).items()
+    }
+    inputs = methods.Inputs(
+        elevation=terrain.elevation.name if terrain.elevation else "",
+        forecast=forecast.of(shot.settings).manifest if ensemble else None,
+        rendered=manifest.versions(manifest.read(out)["settings"].values()),
+    )
+    return crate.write(out, runs, methods.paragraph(shot.run, inputs), rows, licence)
 
 
 def brief(arguments: argparse.Namespace) -> None:

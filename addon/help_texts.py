@@ -28,7 +28,8 @@ run depicts a known fire."""
 
 CITE = """\
 Lists software, algorithms, fire model, facts about the fire, and files of observations. For a scene file, it
-also lists the credits of terrain, imagery and tiles, which their licences require."""
+also lists the credits of terrain, imagery and tiles, which their licences require. --crate writes
+DIR/ro-crate-metadata.json: it describes the files of a film, its run, software and sources for an archive."""
 
 CONVERT = """\
 The format is detected from the content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Model

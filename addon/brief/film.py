@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -46,11 +46,12 @@ class Shown:
 
 @dataclass(frozen=True)
 class Film:
-    """Frames and clips of a folder, and messages on omitted files."""
+    """Frames and clips of a folder, messages on omitted files, and versions of the programs that rendered."""
 
     frames: list[Shown]
     clips: list[Shown]
     left_out: list[str]
+    versions: list[tuple[str, str]] = field(default_factory=list)
 
 
 def read(out: Path, hashes: Mapping[str, str], room: int) -> Film:
@@ -86,7 +87,7 @@ def read(out: Path, hashes: Mapping[str, str], room: int) -> Film:
         left_out.append(f"{count(len(chosen) - MOST, 'frame')} of further cameras and passes")
     frames = [_frame(out / path, entry) for path, entry in chosen[:MOST]]
     fitting, more = _clips(out, entries, clips, room)
-    return Film(frames, fitting, left_out + more)
+    return Film(frames, fitting, left_out + more, manifest.versions(content["settings"].values()))
 
 
 def _check_run(

@@ -81,6 +81,7 @@ def html(briefing: Briefing, limit: int) -> str:
         "growth": sections.growth(briefing),
         "film": sections.film(briefing),
         "scores": sections.scores(briefing),
+        "method": sections.method(briefing),
         "sources": sections.sources(briefing),
         "data": script_json(_data(briefing)),
         "leaflet_script": _leaflet_script(),

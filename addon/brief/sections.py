@@ -10,7 +10,7 @@ from typing import Any
 import firetwin_core
 
 from ..html_text import quote, size
-from ..run import times
+from ..run import methods, times
 from ..run.score import report, used
 from ..stations.records import EXERCISE, Source
 from . import curve, units
@@ -153,6 +153,19 @@ def scores(briefing: Briefing) -> str:
             inside = f'<p class="soft">{warning}</p>{inside}'
     title = '<h2 id="scores-title">Scores against observations</h2>'
     return f'<section aria-labelledby="scores-title">{title}{inside}</section>'
+
+
+def method(briefing: Briefing) -> str:
+    """Build the paragraph on methods, for a paper."""
+    found = dict(reversed(briefing.inputs))
+    inputs = methods.Inputs(
+        elevation=found.get("Elevation model", ""),
+        observations=[name for what, name in briefing.inputs if what == "Observations" and briefing.scores],
+        forecast=briefing.forecast.ensemble.manifest if briefing.forecast else None,
+        rendered=briefing.film.versions if briefing.film else (),
+        exercise=briefing.exercise,
+    )
+    return f"<p>{quote(methods.paragraph(briefing.run, inputs))}</p>"
 
 
 def sources(briefing: Briefing) -> str:

@@ -7,6 +7,7 @@ settings of every fingerprint.
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +45,13 @@ def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:
     """Write the manifest atomically: readers get either the new or the previous one."""
     text = json.dumps({"format": _FORMAT, "settings": settings, "files": entries}, indent=1) + "\n"
     files.write_text(out / NAME, text)
+
+
+def versions(settings: Iterable[Mapping[str, Any]]) -> list[tuple[str, str]]:
+    """List the programs that rendered files, with their versions, from the values of `settings`."""
+    names = {"firetwin": "Firetwin", "blender": "Blender"}
+    pairs = dict.fromkeys(pair for made in settings for pair in made.get("versions", {}).items())
+    return [(names.get(name, name), version) for name, version in pairs]
 
 
 def read_credits(made_with: dict[str, Any]) -> Credits:

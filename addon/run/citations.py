@@ -45,15 +45,20 @@ def _software() -> list[dict[str, str]]:
     ]
 
 
-def _model(run: Run) -> list[dict[str, str]]:
+def model_name(run: Run) -> str:
+    """Return the name of a run's fire model with its version; "" if run.toml has none."""
     source = info.source(Path(run.path))
-    name, version = source.get("model"), source.get("version", "")
+    version = source.get("version", "")
+    stated = "" if version in ("", "not said") else f", version {version}"
+    return f"{name}{stated}" if (name := source.get("model")) else ""
+
+
+def _model(run: Run) -> list[dict[str, str]]:
     if run.synthetic:
         return [_synthetic(run.name)]
-    if not name:
+    if not (name := model_name(run)):
         return [{"kind": "fire model", "text": "not named in run.toml; name the model and its version"}]
-    stated = "" if version in ("", "not said") else f", version {version}"
-    return [{"kind": "fire model", "text": f"{name}{stated}; run: {run.name}"}]
+    return [{"kind": "fire model", "text": f"{name}; run: {run.name}"}]
 
 
 def _synthetic(name: str) -> dict[str, str]:

@@ -16,6 +16,7 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 RUN = (
     "stations.md",
     "brief.md",
+    "citing.md",
     "tiles.md",
     "delivery.md",
     "forecasts.md",

@@ -17,6 +17,7 @@ from firetwin.data import sample
 from firetwin.render import store
 from firetwin.render.picture import Picture, film
 from firetwin.render.store import Store
+from firetwin.run import content, readers
 from shown_code import PROGRAM, ROOT, RUN, blocks
 
 pytest.importorskip("scipy")
@@ -100,8 +101,8 @@ def run_page(name, **more):
     return ran
 
 
-def finish(out):
-    """Make up the finished pictures and the film of a render."""
+def finish(out, made_with=None):
+    """Make up the finished pictures and the film of a render, with these inputs."""
     with Store(out, create=True) as made:
         entries = {path: {"frame": k} for k in (1, 2) for path in Picture("drone", k, "rgb").files()}
         entries |= {film("drone", "rgb", "clean"): {"film": "clean"}}
@@ -110,7 +111,7 @@ def finish(out):
             (made.out / path).write_bytes(path.encode())
             entries[path] |= {"camera": "drone", "pass": "rgb"} | store.describe(made.out / path)
         about = {"film": "rgb", "kind": "clean", "fps": "24", "frames": [[1, ""], [2, ""]]}
-        made.add({"run": 1, "camera": "drone"} | about, entries)
+        made.add({"run": 1, "camera": "drone"} | about | (made_with or {}), entries)
         made.export()
 
 
@@ -137,6 +138,13 @@ def test_the_commands_on_forecasts_run(folder, capsys):
     assert {words[0] for words in run_page("docs/forecasts.md")} >= {"sample", "info", "brief", "score"}
     assert "20 of 20 members, issued 16 Sep 2014 21:45 PDT" in capsys.readouterr().out
     assert "How sure the forecast is" in Path("page.html").read_text("utf-8")
+
+
+def test_the_commands_on_citing_run(folder, capsys):
+    finish(folder / "FILM", {"run": content.inputs(readers.open(Path("small")), folder)})
+    assert [words[0] for words in run_page("docs/citing.md")] == ["cite"] * 3
+    assert Path("FILM/ro-crate-metadata.json").is_file()
+    assert "synthetic" in capsys.readouterr().out
 
 
 def test_the_commands_on_tiles_run(folder):

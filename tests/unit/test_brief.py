@@ -637,6 +637,15 @@ def test_sources_and_licences_are_all_named(folder, gpkg):
     assert "Volodymyr Agafonkin" in made.text
 
 
+def test_the_methods_are_a_paragraph_for_a_paper(folder, own):
+    text = PageParts(sections.method(briefing.gather(briefing.Request(folder)))).text
+    assert "on 100 x 100 cells of 60 m" in text
+    assert "The run is not compared with observations." in text
+    assert "rendered" not in text
+    change(own, name=HOSTILE)
+    assert "<script>" not in sections.method(briefing.gather(briefing.Request(own)))
+
+
 def test_the_command_writes_the_file_and_tells_what_to_know(folder, gpkg, tmp_path, capsys):
     out = tmp_path / "made" / "page.html"
     assert cli.main(["brief", str(folder), "--out", str(out), "--stations", str(gpkg)]) == 0

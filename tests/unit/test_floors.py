@@ -28,7 +28,7 @@ NEVER_BPY = (
     *(
         f"firetwin.render.{name}"
         for name in (
-            *("fingerprint", "finish", "films", "manifest", "picture", "plan", "png"),
+            *("crate", "fingerprint", "finish", "films", "manifest", "picture", "plan", "png"),
             *("sharing", "store", "verify"),
         )
     ),
