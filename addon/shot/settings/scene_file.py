@@ -38,7 +38,7 @@ def read(path: str | Path) -> Settings:
         text = load(path)
         settings = parse(text, path)
         if invalid := validate(settings):
-            raise _Reader(path, text).error(*invalid)
+            raise TableReader(path, text).error(*invalid)
         return settings
 
 
@@ -50,12 +50,22 @@ def parse(text: str, path: Path) -> Settings:
     InputError
         As `read`.
     """
+    values, reader = loads(path, text), TableReader(path, text)
+    return reader.table(Settings, reader.current(values), ())
+
+
+def loads(path: Path, text: str) -> dict[str, Any]:
+    """Parse TOML as if it were the file `path`.
+
+    Raises
+    ------
+    InputError
+        It is not valid TOML.
+    """
     try:
-        values = tomllib.loads(text)
+        return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise _syntax_error(path, text, str(error)) from None
-    reader = _Reader(path, text)
-    return reader.table(Settings, reader.current(values), ())
 
 
 def _syntax_error(path: Path, text: str, message: str) -> InputError:
@@ -66,11 +76,18 @@ def _syntax_error(path: Path, text: str, message: str) -> InputError:
     return input_error(path, f"not valid TOML: {reason[:1].lower()}{reason[1:]}", line=line, column=column)
 
 
-class _Reader(SceneText):
-    """Makes dataclasses of tables; bounds and choices are validated by `schema.validate`."""
+class TableReader(SceneText):
+    """Makes dataclasses of tables; bounds and choices are validated by `schema.validate`.
 
-    def __init__(self, path: Path, text: str) -> None:
+    Parameters
+    ----------
+    noun
+        Kind of file, for messages.
+    """
+
+    def __init__(self, path: Path, text: str, noun: str = "scene file") -> None:
         super().__init__(path, text)
+        self.noun = noun
         self.former: list[str] = []
 
     def current(self, values: dict[str, Any]) -> dict[str, Any]:
@@ -141,7 +158,7 @@ class _Reader(SceneText):
         having = [kind for kind, made in kinds.items() if name in (part.name for part in fields(made))]
         if rig and having:
             return f"{name} belongs to {rig.key.tag} {either(having)}; known here: {', '.join(known)}"
-        place = f"in [{_dotted(where)}]" if where else "in a scene file"
+        place = f"in [{_dotted(where)}]" if where else f"in a {self.noun}"
         return f'unknown key "{name}" {place}' + (
             suggestion(name, known) or f"; known here: {', '.join(known)}"
         )

@@ -1,0 +1,214 @@
+"""Plan reader: parses TOML into a validated `Plan`; errors name line and column."""
+
+# ruff: noqa: RUF009 (`key` makes a field)
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import input_error, reading
+from ..run.ensemble import ensemble
+from ..shot.schema import either, key, validate
+from ..shot.schema.bounds import file_name, twice
+from ..shot.schema.did_you_mean import suggestion
+from ..shot.schema.toml_positions import Where
+from ..shot.settings.scene_file import TableReader, loads
+from . import distributions
+from .distributions import DEFAULTS, KINDS, VALUES, Constant, Distribution
+from .plan import ANY, SPLITS, Plan, PlanRun
+from .splits import GROUPS
+
+_MOST = 1_000_000
+_EXAMPLE = "examples/dataset.toml shows every key"
+
+
+def _share(default: float, help: str) -> Any:
+    return key(default, help, at_least=0, at_most=1_000_000)
+
+
+@dataclass(frozen=True)
+class _Run:
+    """A run of the data set."""
+
+    place: str = key("", "name of the place; runs of one place are in one split")
+    run: Path | None = key(None, "run folder, or scene file, whose settings apply")
+    name: str = key("", "unique name of the run (name of its folder or scene file)")
+    weight: float = key(1.0, "share of the samples, relative to other runs", above=0, at_most=1_000_000)
+    split: str = key(ANY, "split of the run's group", choices=(ANY, *SPLITS))
+    imagery_license: str = key("", "SPDX identifier of the licence of photographs of the ground")
+
+
+@dataclass(frozen=True)
+class _Cameras:
+    """Relative shares of the kinds of camera."""
+
+    tower: float = _share(0.4, "fixed on high ground")
+    drone: float = _share(0.4, "near the front")
+    aircraft: float = _share(0.15, "a few kilometres away")
+    nadir: float = _share(0.05, "straight down")
+
+
+@dataclass(frozen=True)
+class _Negatives:
+    """Relative shares of the kinds of sample without fire."""
+
+    before_ignition: float = _share(1.0, "the same scenes before the fire")
+    cloud: float = _share(1.0, "a cloudy sky")
+    fog: float = _share(1.0, "fog")
+    dust: float = _share(1.0, "dust")
+    low_sun: float = _share(1.0, "a camera towards the low sun")
+    night_lights: float = _share(1.0, "lamps at night")
+    burned_out: float = _share(1.0, "burned ground after the fire")
+
+
+@dataclass(frozen=True)
+class _Splits:
+    """Relative shares of the splits."""
+
+    train: float = _share(0.7, "for training")
+    val: float = _share(0.1, "for the choice of a model")
+    test: float = _share(0.2, "for its score")
+
+
+@dataclass(frozen=True)
+class _File:
+    """Content of a plan, except the distributions."""
+
+    title: str = key("Firetwin samples", "name of the data set")
+    count: int = key(100, "number of samples", at_least=1, at_most=_MOST)
+    seed: int = key(0, "seed of all draws", at_least=0, at_most=2**63 - 1)
+    resolution: tuple[int, int] = key(
+        (640, 480), "size of the pictures", unit="pixels", at_least=64, at_most=8192
+    )
+    moments: int = key(8, "model times per run, whose smoke several samples share", at_least=1, at_most=1000)
+    sites: int = key(6, "towers per run", at_least=1, at_most=1000)
+    positives: float = key(0.6, "share of samples with fire", at_least=0, at_most=1)
+    night: float = key(0.25, "share of samples at night", at_least=0, at_most=1)
+    split_by: str = key("auto", "group that is never in two splits", choices=("auto", *GROUPS))
+    runs: tuple[_Run, ...] = key((), "runs that the samples show")
+    cameras: _Cameras = key(default_factory=_Cameras, help="kinds of camera")
+    negatives: _Negatives = key(default_factory=_Negatives, help="kinds of sample without fire")
+    splits: _Splits = key(default_factory=_Splits, help="splits")
+
+
+def read(path: str | Path) -> Plan:
+    """Read and validate a plan; relative paths start at its folder.
+
+    Raises
+    ------
+    InputError
+        The error names the file, line and column, and the remedy.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise input_error(path, f"there is no such plan; {_EXAMPLE}")
+    with reading(path):
+        return parse(path.read_text(encoding="utf-8-sig"), path)
+
+
+def parse(text: str, path: Path) -> Plan:
+    """Parse a text as if it were the file `path`.
+
+    Raises
+    ------
+    InputError
+        As `read`.
+    """
+    values = loads(path, text)
+    reader = TableReader(path, text, "plan of a data set")
+    drawn = reader.expect(dict, values.pop("draws", {}), ("draws",))
+    found: _File = reader.table(_File, values, ())
+    if invalid := validate(found):
+        raise reader.error(*invalid)
+    for where, reason in _faults(found):
+        raise reader.error(where, reason)
+    draws = {name: _distribution(reader, name, value) for name, value in drawn.items()}
+    return Plan(
+        path=path,
+        runs=tuple(_run(each) for each in found.runs),
+        cameras=dataclasses.asdict(found.cameras),
+        negatives=dataclasses.asdict(found.negatives),
+        splits=dataclasses.asdict(found.splits),
+        draws={**DEFAULTS, **draws},
+        **{name: getattr(found, name) for name in _PLAIN},
+    )
+
+
+_PLAIN = "title", "count", "seed", "resolution", "moments", "sites", "positives", "night", "split_by"
+
+
+def _run(found: _Run) -> PlanRun:
+    assert found.run is not None  # checked by `_faults`
+    return PlanRun(found.place, found.run, _name(found), found.weight, found.split, found.imagery_license)
+
+
+def _name(found: _Run) -> str:
+    return found.name or (found.run.absolute().stem if found.run else "")
+
+
+def _faults(found: _File) -> Iterator[tuple[Where, str]]:
+    """Yield place and message of each error across keys."""
+    if not found.runs:
+        yield ("runs",), f'there are no [[runs]]; add one with place = "NAME" and run = "FOLDER"; {_EXAMPLE}'
+    for number, run in enumerate(found.runs):
+        here: Where = ("runs", number)
+        if not run.place.strip():
+            yield here, "runs.place is missing; name the place, as splits keep places apart"
+        if run.run is None:
+            yield here, "runs.run is missing; name a run folder or a scene file"
+        elif not run.run.exists():
+            yield (*here, "run"), f"runs.run: there is no {run.run}; check the path"
+        elif run.run.is_dir() and ensemble.sniff(run.run):
+            reason = f"runs.run: {run.run} is an ensemble, which has no heat; convert its members to runs"
+            yield (*here, "run"), reason
+        elif reason := file_name(_name(run)):
+            yield (*here, "name" if run.name else "run"), f"runs.name {reason}; set another name"
+    names = [_name(run) for run in found.runs]
+    if (second := twice(names)) is not None:
+        yield ("runs", second), f'two runs are called "{names[second]}"; give one another name'
+    splits: dict[str, str] = {}
+    for number, run in enumerate(found.runs):
+        group = run.place if found.split_by != "run" else _name(run)
+        if splits.setdefault(group, run.split) != run.split:
+            yield ("runs", number, "split"), f'"{group}" has two splits; give all of its runs the same split'
+    for section in ("cameras", "splits") + (("negatives",) if found.positives < 1.0 else ()):
+        if not any(dataclasses.asdict(getattr(found, section)).values()):
+            yield (section,), f"all shares of [{section}] are 0; give one a share"
+
+
+def _distribution(reader: TableReader, name: str, value: Any) -> Distribution:
+    """Convert an entry of [draws]: a number, or a table with the key `kind`."""
+    here: Where = ("draws", name)
+    if name not in VALUES:
+        remedy = suggestion(name, VALUES) or f"; known here: {', '.join(VALUES)}"
+        raise reader.error(here, f'unknown value "{name}" in [draws]{remedy}')
+    if not isinstance(value, dict):
+        found: Distribution = Constant(reader.value(float, value, here))
+    else:
+        found = _table(reader, value, here)
+    if reason := distributions.fault(found, VALUES[name]):
+        raise reader.error(here, f"draws.{name} {reason}")
+    return found
+
+
+def _table(reader: TableReader, value: dict[str, Any], here: Where) -> Distribution:
+    kind = value.get("kind", "")
+    if kind not in KINDS:
+        hint = suggestion(kind, KINDS)
+        raise reader.error((*here, "kind"), f"draws.{here[1]}: kind must be {either(KINDS)}{hint}")
+    known = {each.name: each for each in dataclasses.fields(KINDS[kind])}
+    for name in value:
+        if name not in known and name != "kind":
+            raise reader.error((*here, name), f'a {kind} has no "{name}"; it has {", ".join(known)}')
+    for name, each in known.items():
+        if name not in value and each.default is dataclasses.MISSING:
+            raise reader.error(here, f"draws.{here[1]}: a {kind} needs {name}")
+    kinds: dict[str, Any] = {"values": tuple[float, ...], "weights": tuple[float, ...]}
+    given = {name: each for name, each in value.items() if name != "kind"}
+    return KINDS[kind](
+        **{name: reader.value(kinds.get(name, float), each, (*here, name)) for name, each in given.items()}
+    )
