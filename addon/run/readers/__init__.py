@@ -134,7 +134,7 @@ def reader(paths: list[Path]) -> ModuleType:
     if len(by_name) > 1:
         by_name.pop(modules[-1].NAME, None)
     if not by_name:
-        refused = next((error for path in paths if (error := probability_maps.refusal(path))), None)
+        refused = next(filter(None, map(probability_maps.refusal, paths)), None)
         raise broken[0] if broken else refused or input_error(paths[0], _why(paths))
     one_run.of_models(by_name)
     ((name, ours),) = by_name.items()

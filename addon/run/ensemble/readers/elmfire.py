@@ -73,6 +73,7 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
 def _members(
     cases: dict[str, Path], known: set[str], like: raster.Raster, horizon: float
 ) -> Iterator[write.Read]:
+    shape = len(like.y), len(like.x)
     for case in sorted({*cases, *known}):
         member = Member(case)
         if case not in cases:
@@ -80,7 +81,7 @@ def _members(
             continue
         try:
             found = raster.read(cases[case]) if _MAP.match(cases[case].stem) else None
-            values = _map(found) if found else _list(cases[case], like.values.shape)
+            values = _map(found) if found else _list(cases[case], shape)
         except InputError as error:
             yield member, error
             continue

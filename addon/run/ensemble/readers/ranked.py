@@ -78,7 +78,7 @@ def _maps(paths: list[Path]) -> dict[str, Path]:
     """Return the raster of each percentile."""
     folders = [each for path in paths if path.is_dir() for each in sorted(path.iterdir())]
     inner = [each for each in folders if each.is_dir() and _FOLDER.fullmatch(each.name)]
-    found = {}
+    found: dict[str, Path] = {}
     for path in files_in([*paths, *inner]):
         match = _MAP.match(path.stem)
         percentile = match[1] if match else path.parent.name
