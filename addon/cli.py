@@ -203,6 +203,14 @@ def _parser() -> argparse.ArgumentParser:
         "--member", metavar="NAME", default="", help="convert a member of the ensemble IN to a run"
     )
     made.add_argument(
+        "--wind",
+        metavar="GRIB2",
+        nargs="+",
+        type=types.path,
+        default=[],
+        help="forecast of HRRR for the wind at 10 m, if the model writes none: files of all hours of the run",
+    )
+    made.add_argument(
         "--horizon",
         metavar="HOURS",
         type=types.hours,

@@ -279,8 +279,11 @@ def imager(arguments: argparse.Namespace) -> None:
 
 def convert(arguments: argparse.Namespace) -> None:
     """Convert a fire model's own files to a run."""
+    from .errors import UsageError
     from .jobs import convert
 
+    if arguments.members and arguments.wind:
+        raise UsageError("--wind: members have arrival times alone; give it with --member")
     if arguments.members:
         options = arguments.start, arguments.at, arguments.projection, arguments.horizon * 3600.0
         result(
@@ -295,7 +298,7 @@ def convert(arguments: argparse.Namespace) -> None:
             convert.run(
                 arguments.paths, arguments.out, arguments.start, arguments.at, arguments.projection,
                 arguments.interval, reporter, say, name=arguments.name, zone=arguments.zone,
-                member=arguments.member,
+                member=arguments.member, wind=arguments.wind,
             )
         )  # fmt: skip
     finally:

@@ -6,6 +6,7 @@ import hashlib
 import itertools
 import os
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import Error, input_error, reading
@@ -33,11 +34,12 @@ def run(
     name: str = "",
     zone: str = "",
     member: str = "",
+    wind: list[Path] | None = None,
 ) -> Path:
     """Convert these files and folders to a run in the folder `out`, and return that folder.
 
-    A conversion that was stopped is resumed. `start`, `at`, `projection`, `interval`, `name`, `zone` and
-    `member` are the options of the command line.
+    A conversion that was stopped is resumed. `start`, `at`, `projection`, `interval`, `name`, `zone`,
+    `member` and `wind` are the options of the command line.
 
     Raises
     ------
@@ -53,10 +55,11 @@ def run(
     from ..run.readers import gathered
 
     files = paths if member else gathered(paths)
+    forecast = [str(path.absolute()) for path in gathered(wind)] if wind else []
     Options.of(start, at, projection, interval, files, name, zone)
     write.check(out)
     options = [start, at, projection, interval, name, zone]
-    _run("in_process", files, out, options, progress, tell, stop, member=member)
+    _run("in_process", files, out, options, progress, tell, stop, member=member, wind=forecast)
     return out
 
 
@@ -108,7 +111,7 @@ def _run(
     progress: Progress,
     tell: MessageCallback,
     stop: worker.Stop | None,
-    **more: str,
+    **more: str | list[str],
 ) -> None:
     """Call a function of this module in a worker process, with paths, output, options and `more`.
 
@@ -200,21 +203,28 @@ def in_process(
     progress: Progress = silent,
     tell: MessageCallback = no_message,
     member: str = "",
+    wind: Sequence[str] = (),
 ) -> None:
     """Worker side: select the reader, read and write."""
     from ..run.models import heartbeat
 
-    files = [Path(path) for path in paths]
+    files, forecast = ([Path(path) for path in each] for each in (paths, wind))
     with heartbeat.to(lambda: worker.send_heartbeat()):
-        _convert(files, Path(out), options, progress, tell, member)
+        _convert(files, Path(out), options, progress, tell, member, forecast)
 
 
 def _convert(
-    files: list[Path], out: Path, options: list, progress: Progress, tell: MessageCallback, member: str
+    files: list[Path],
+    out: Path,
+    options: list,
+    progress: Progress,
+    tell: MessageCallback,
+    member: str,
+    wind: list[Path],
 ) -> None:
     from ..run import readers
     from ..run.ensemble import member_run
-    from ..run.models import write
+    from ..run.models import forecast_wind, write
     from ..run.models.model import Options
 
     start, at, projection, interval, *more = options
@@ -229,7 +239,9 @@ def _convert(
             model.name, model.zone = f"{out.name} ({model.name})", said.zone
         model.name = said.name or model.name
         try:
-            write.write(model, out, _fingerprint(files, options), progress)
+            if wind:
+                forecast_wind.add(model, wind)
+            write.write(model, out, _fingerprint([*files, *wind], options), progress)
         finally:
             model.close()
     for text in [*model.assumptions, *write.moved(model)]:

@@ -86,9 +86,7 @@ def test_maps_on_other_cells_are_refused(folder, tmp_path):
         arrival_map(folder, case, 7200, "10 -9999 -9999\n-9999 -9999 -9999\n")
     moved = folder / "time_of_arrival_0000002_0007200.asc"
     moved.write_text(moved.read_text().replace("700000", "700001"))
-    with pytest.raises(
-        InputError, match=r"0000002_0007200.asc: has other cells than time_of_"
-    ):
+    with pytest.raises(InputError, match=r"0000002_0007200.asc: has other cells than time_of_"):
         run(folder, tmp_path / "out")
 
 
