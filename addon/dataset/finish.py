@@ -1,0 +1,51 @@
+"""Last step of a data set: formats, table, card, Croissant metadata, report, and hashes of all files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import input_error
+from ..progress import MessageCallback, no_message
+from . import about, card, croissant, formats, licences, report, sums, table, truth
+from .truth import Truth
+
+
+def read_samples(folder: Path) -> list[Truth]:
+    """Read the metadata of all complete samples, ascending.
+
+    Raises
+    ------
+    InputError
+        The folder has no samples, or a file is damaged.
+    """
+    samples = [truth.read(folder, index) for index in truth.indices(folder)]
+    if not samples:
+        raise input_error(folder, f"has no samples (no {truth.FOLDER}/*.json); name the folder of a data set")
+    return samples
+
+
+def write(folder: Path, names: Sequence[str], say: MessageCallback = no_message) -> list[Path]:
+    """Write the formats and the files about a complete data set; earlier ones are replaced.
+
+    Parameters
+    ----------
+    names
+        Formats (see `formats.names`). Those written earlier stay, and are not updated.
+
+    Returns
+    -------
+    Card, report and hashes.
+    """
+    samples, facts = read_samples(folder), about.read(folder)
+    for name in names:
+        say(f"writing {name}")
+        formats.write(folder, samples, [name])
+    sources = licences.of_samples(samples)
+    table.write(folder, samples)
+    report.write(folder, facts, samples)
+    card.write(folder, facts, samples)
+    croissant.write(folder, facts, {table.NAME: sums.digest(folder / table.NAME)}, sources)
+    say("computing hashes")
+    sums.write(folder)
+    return [folder / name for name in (card.NAME, report.NAME, sums.NAME)]

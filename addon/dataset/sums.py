@@ -1,0 +1,52 @@
+"""SHA256SUMS: the hash of each file of a data set; ``sha256sum -c SHA256SUMS`` checks them."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from .. import files
+from ..errors import reading
+
+NAME = "SHA256SUMS"
+
+
+def paths(folder: Path) -> Iterator[str]:
+    """Yield the paths of all files relative to the folder, sorted, except SHA256SUMS and hidden files."""
+    found = []
+    for parent, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        for name in names:
+            path = (Path(parent) / name).relative_to(folder).as_posix()
+            if not name.startswith(".") and path != NAME:
+                found.append(path)
+    yield from sorted(found)
+
+
+def leftovers(folder: Path) -> Iterator[str]:
+    """Yield temporary files and folders that a killed process left, relative to the folder."""
+    for path in sorted(folder.rglob(".*.part*")):
+        yield path.relative_to(folder).as_posix()
+
+
+def write(folder: Path) -> dict[str, str]:
+    """Write the hash of each file, and return them by path."""
+    found = {path: digest(folder / path) for path in paths(folder)}
+    files.write_text(folder / NAME, "".join(f"{value}  {path}\n" for path, value in found.items()), "\n")
+    return found
+
+
+def read(folder: Path) -> dict[str, str]:
+    """Read the hash of each file by its path; lines that are not hashes are left out."""
+    with reading(folder / NAME):
+        lines = (folder / NAME).read_text(encoding="utf-8").splitlines()
+    pairs = (line.split("  ", 1) for line in lines)
+    return {pair[1]: pair[0] for pair in pairs if len(pair) == 2 and len(pair[0]) == 64}
+
+
+def digest(path: Path) -> str:
+    """Compute the SHA-256 of a file."""
+    with reading(path), path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
