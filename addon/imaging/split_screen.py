@@ -39,13 +39,14 @@ def sheet(
     foot: list[str],
     below: int = 0,
     marks: Sequence[Sequence[Mark]] = (),
+    corner: Sequence[str] = (),
 ) -> NDArray[np.float32]:
     """Compose one to four `pictures` (h, w, 3) into one picture of the same size.
 
     Two are halves with the central half of their picture. Three or four are quarters with the whole picture
     at half size. `keys` are drawn in their upper left corners, the lines of `foot` in the lower left corner,
     `below` rows from the bottom. `marks` are drawn in their pictures if they overlap neither other text nor
-    an edge, the first ones first.
+    an edge, the first ones first. The lines of `corner`, the first one larger, are drawn in the upper right.
     """
     height, width = pictures[0].shape[:2]
     sheet, corners = _arranged([np.clip(picture[..., :3], 0.0, 1.0) for picture in pictures])
@@ -68,6 +69,7 @@ def sheet(
         at = height - below - (3.2 + 4.6 * number) * unit
         _text(figure, 2.0 * unit, at, line, 3.0 * unit)
         taken.append(_box(2.0 * unit, at, line, 3.0 * unit))
+    _write_corner(figure, corner, unit)
     for area, texts in zip(_areas(len(pictures), width, height), marks, strict=False):
         for mark, at_left in _free(texts, area, 2.8 * large, taken):
             _mark(figure, mark, 2.8 * large, at_left)
@@ -95,6 +97,22 @@ def _arranged(pictures: list[NDArray]) -> tuple[NDArray, list[tuple[int, int]]]:
     sheet[:, across] = 1.0
     sheet[height // 2 - line // 2 - line % 2 : height // 2 + line // 2] = 1.0
     return sheet, corners
+
+
+def _write_corner(figure: Figure, lines: Sequence[str], unit: float) -> None:
+    """Write lines on a dark plate in the upper right corner, over other text of the picture."""
+    if not lines:
+        return
+    width, height = figure.get_size_inches() * _DPI
+    sizes = [4.6, *[3.4] * (len(lines) - 1)]
+    left = min(width - 0.62 * size * unit * len(line) for size, line in zip(sizes, lines, strict=True))
+    left, bottom = left - 2.0 * unit, (5.6 * len(lines) + 3.0) * unit
+    corner = left / width, 1.0 - bottom / height
+    plate = Rectangle(corner, 1.0 - corner[0], (bottom - 2.4 * unit) / height, transform=figure.transFigure)
+    plate.set(facecolor="#000000a0", linewidth=0.0)
+    figure.add_artist(plate)
+    for number, (size, line) in enumerate(zip(sizes, lines, strict=True)):
+        _text(figure, width - 2.0 * unit, (6.0 + 5.6 * number) * unit, line, size * unit, "right")
 
 
 Box = tuple[float, float, float, float]  # left, top, right, bottom, pixels

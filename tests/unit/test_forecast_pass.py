@@ -217,7 +217,7 @@ def test_captions_and_legend_name_member_times_and_counts(scene):
     assert words == [
         *(
             "burned by 21:46 in",
-            "3 of 3",
+            "3 of 3 members",
             "2 of 3",
             "1 of 3",
             "front of member 01, burning",
@@ -229,19 +229,24 @@ def test_captions_and_legend_name_member_times_and_counts(scene):
     ]
 
 
-def test_a_picture_shows_counts_on_the_ground_and_hatches_what_was_not_simulated(scene, tmp_path):
-    shot = ShotSource(scene=str(scene)).shot()
-    files = {"png": tmp_path / "p.png"}
+def rendered(folder: Path) -> dict[str, dict[str, Path]]:
+    """Write the files of passes that show even ground 900 m from the camera."""
     planar = np.full((48, 64), 900.0, np.float32)
-    sensor.write_image(tmp_path / "rgb.png", np.full((48, 64, 3), 0.2, np.float32))
-    sensor.write_image(tmp_path / "depth.exr", planar)
+    sensor.write_image(folder / "rgb.png", np.full((48, 64, 3), 0.2, np.float32))
+    sensor.write_image(folder / "depth.exr", planar)
     names = [f"{name}.{c}" for name in ("fire", "light_fire") for c in "RGB"] + [*"RGB", "smoke.A"]
     pixels = np.zeros((48, 64, len(names)), np.float32)
     pixels[..., 6:9] = 1.0
-    sensor.write_image(tmp_path / "comp.exr", pixels, None, names)
-    needed = {"rgb": {"png": tmp_path / "rgb.png"}} | {
-        name: {"exr": tmp_path / f"{name}.exr"} for name in ("depth", "comp")
+    sensor.write_image(folder / "comp.exr", pixels, None, names)
+    return {"rgb": {"png": folder / "rgb.png"}} | {
+        name: {"exr": folder / f"{name}.exr"} for name in ("depth", "comp")
     }
+
+
+def test_a_picture_shows_counts_on_the_ground_and_hatches_what_was_not_simulated(scene, tmp_path):
+    shot = ShotSource(scene=str(scene)).shot()
+    files = {"png": tmp_path / "p.png"}
+    needed = rendered(tmp_path)
     given = []
     original = split_screen.sheet
     with pytest.MonkeyPatch.context() as patch:
@@ -326,16 +331,60 @@ def test_the_bar_has_a_part_for_each_run():
     assert found[:2, 60:].max() < 0.5
 
 
-def test_outcomes_are_made_of_the_forecast_pictures_of_all_runs(scene, tmp_path):
+def test_outcomes_are_made_of_the_forecast_pictures_of_all_runs(scene, tmp_path, monkeypatch):
     text = scene.read_text().replace('passes = ["forecast"]', 'passes = ["outcomes"]')
     scene.write_text(text.replace("[[cameras]]", '[[runs]]\nname = "same"\npath = "run"\n[[cameras]]'))
     shot = ShotSource(scene=str(scene)).shot()
     wanted = {(picture.camera, picture.name) for picture in plan.pictures(shot)}
     assert wanted == {("drone", "forecast"), ("drone@same", "forecast"), ("drone", "outcomes")}
-    needed = {}
+    needed, corners = {}, []
+    original = split_screen.sheet
+    monkeypatch.setattr(
+        split_screen, "sheet", lambda *all, **more: corners.append(more["corner"]) or original(*all, **more)
+    )
     for level, name in ((0.2, "forecast"), (0.7, "forecast@same")):
         needed[name] = {"png": tmp_path / f"{level}.png"}
         sensor.write_image(needed[name]["png"], np.full((48, 64, 3), level, np.float32))
     for frame, level in ((1, 0.2), (40, 0.7)):
         finisher("outcomes")({"png": tmp_path / "o.png"}, needed, shot, "drone", frame)
-        assert sensor.read_image(tmp_path / "o.png")[20, 20, 0] == pytest.approx(level, abs=0.01)
+        assert sensor.read_image(tmp_path / "o.png")[40, 20, 0] == pytest.approx(level, abs=0.01)
+    assert [corner[:2] for corner in corners] == [
+        ["outcome 1 of 2", "member 01 of 4"],
+        ["outcome 2 of 2", "member 01 of 4"],
+    ]
+
+
+def test_a_split_names_each_member_with_its_area_and_has_one_legend(scene, tmp_path, monkeypatch):
+    text = scene.read_text().replace('passes = ["forecast"]', 'passes = ["forecast_split"]')
+    more = "".join(f'[[runs]]\nname = "{name}"\npath = "run"\n' for name in ("b", "c"))
+    scene.write_text(text.replace("[[cameras]]", f"{more}[[cameras]]"))
+    shot = ShotSource(scene=str(scene)).shot()
+    files = rendered(tmp_path)
+    needed = {f"{name}{run}": file for name, file in files.items() for run in ("", "@b", "@c")}
+    given = []
+    original = split_screen.sheet
+    monkeypatch.setattr(
+        split_screen, "sheet", lambda *all, **more: given.append(all) or original(*all, **more)
+    )
+    finisher("forecast_split")({"png": tmp_path / "s.png"}, needed, shot, "drone", 3)
+    (((*pictures, last), keys, said, _below),) = given
+    assert len(pictures) == 3
+    assert np.ptp(last) == 0.0
+    for picture, key in zip(pictures, keys, strict=False):
+        assert (picture[..., 2] - picture[..., 0]).max() > 0.2, "the ground is tinted"
+        assert next(words for _, words in key).startswith("member 01")
+        assert key[1][1].endswith(" ha) burned")
+    assert keys[3][0] == ("", "burned by 21:47 in")
+    assert not any("front" in words for _, words in keys[3])
+    assert said[-2:] == ["issued 16 Sep 2014 21:45 PDT", "valid 16 Sep 2014 21:47 PDT"]
+
+
+def test_members_of_other_weights_are_said_to_count_equally(scene):
+    shot = ShotSource(scene=str(scene)).shot()
+    found = shot_forecast.of(shot.settings)
+    counts = _forecast_text.Counts(found, shot.utc(2), 1, 4, (), False)
+    said = ("", "members count equally, weights not used")
+    assert said not in _forecast_text.legend(shot, counts)
+    members = (replace(found.members[0], weight=0.5), *found.members[1:])
+    weighted = replace(found, manifest=replace(found.manifest, members=members))
+    assert said in _forecast_text.legend(shot, replace(counts, ensemble=weighted))

@@ -231,7 +231,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
         return {name for name in passes.known() if key(changed, name) != key(SETTINGS, name)}
 
     everything = set(passes.known())
-    compared = {"split", "difference", "forecast", "outcomes"}
+    compared = {"split", "difference", "forecast", "outcomes", "forecast_split"}
     lit = {"rgb", "comp", "thermal", "thermal_map", "edl", "overlay", "fused", "data"} | compared
     assert changes() == set()
     assert changes(seed=2) == everything
@@ -402,6 +402,7 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
         "difference",
         "forecast",
         "outcomes",
+        "forecast_split",
     }
     assert changed("scene/smoke/material.py") == shown
     assert changed("scene/fire/flames.py") == shown

@@ -44,7 +44,9 @@ class Ground:
     counts: Counts
 
 
-def draw(needed: Mapping[str, Files], shot: Shot, camera: str, frame: int, shown: int) -> Ground:
+def draw(
+    needed: Mapping[str, Files], shot: Shot, camera: str, frame: int, shown: int, others: bool = True
+) -> Ground:
     """Draw colours and lines over the picture of a burning member by a shot's camera.
 
     Parameters
@@ -53,6 +55,8 @@ def draw(needed: Mapping[str, Files], shot: Shot, camera: str, frame: int, shown
         Files of the passes rgb, depth and comp.
     shown
         Index of the member.
+    others
+        Draw fronts of other members, and numbers at places.
     """
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
     planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
@@ -62,7 +66,8 @@ def draw(needed: Mapping[str, Files], shot: Shot, camera: str, frame: int, shown
     found, settings = forecast.of(shot.settings), shot.settings.forecast
     time = (shot.utc(frame) - found.issued).total_seconds()
     counted = np.flatnonzero(found.counted(time))
-    drawn = [member for member in forecast.others(found, shown, settings.lines) if member in counted]
+    lines = forecast.others(found, shown, settings.lines) if others else []
+    drawn = [member for member in lines if member in counted]
     ground = np.isfinite(points).all(axis=-1)
     latitude, longitude, _ = shot.local_frame.reverse(points[ground])
     named = labels.of_forecast(shot)
@@ -92,7 +97,7 @@ def draw(needed: Mapping[str, Files], shot: Shot, camera: str, frame: int, shown
     rgb = line(rgb, borders[shown], SHOWN, clear)
     told = Counts(found, shot.utc(frame), shown, len(counted), tuple(drawn), float(unknown.mean()) > _SEEN)
     seen = _forecast_labels.visible(view, frame, planar, clear, named.position)
-    of = len(counted) if settings.shares else 0
+    of = len(counted) if settings.shares and others else 0
     marks = [
         *_forecast_labels.roles(told, borders, clear),
         *_forecast_labels.names(named.names, counts[len(latitude) :], of, seen),

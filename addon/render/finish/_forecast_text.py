@@ -9,15 +9,15 @@ from zoneinfo import ZoneInfo
 
 from ...imaging.split_screen import HATCHED, Key
 from ...imaging.split_screen import LINE as _LINED
-from ...run import times
+from ...run import info, times
 from ...run.ensemble.ensemble import Ensemble
 from ...shot import forecast
 from ...shot.shot import Shot
-from ...shot.surface import fronts
+from ...shot.surface.fronts import COLOURS as FRONTS
 
 COLOURS = ("#2b3a8f", "#3f6fc0", "#5aa2d8", "#93d0e8", "#e6f7ff")
 """Colours of the classes, fewest members first. Their lightness ascends, so that they differ without hue."""
-SHOWN, OUTLIER, LINE, HATCH = *fronts.COLOURS[:2], "#ffffff", "#d8d8d8"
+SHOWN, OUTLIER, LINE, HATCH = *FRONTS[:2], "#ffffff", "#d8d8d8"
 _LONGEST = 40  # characters of a model's name
 _KINDS = {"forecast": "member", "scenarios": "scenario", "ranked": "size rank", "ignitions": "ignition"}
 
@@ -55,21 +55,48 @@ class Counts:
 
 def caption(shot: Shot, counts: Counts) -> list[str]:
     """Name the shown member, the fire model, and the issue and valid times."""
-    zone, found = shot.settings.time.zone, counts.ensemble
-    manifest = found.manifest
+    found, manifest = counts.ensemble, counts.ensemble.manifest
     which = f"{counts.kind} {found.members[counts.shown].name} of {len(found.members)}"
     roles = ", ".join(forecast.roles(found, counts.shown))
     model = _short(manifest.model or "model not given")
     return [
         *(["synthetic"] if shot.run.synthetic or manifest.synthetic else []),
         f"burning: {which}{f' ({roles})' if roles else ''}, {model}",
-        f"issued {times.text(found.issued, zone)}",
+        *when(shot, counts),
+    ]
+
+
+def when(shot: Shot, counts: Counts) -> list[str]:
+    """Name the issue time and the valid time."""
+    zone = shot.settings.time.zone
+    return [
+        f"issued {times.text(counts.ensemble.issued, zone)}",
         f"valid {times.text(counts.moment, zone)}",
     ]
 
 
-def legend(shot: Shot, counts: Counts) -> list[Key]:
-    """Explain colours, lines and hatching."""
+def member(found: Ensemble, shown: int) -> list[str]:
+    """Name a member of all, and its roles."""
+    kind, roles = _KINDS[found.manifest.kind], ", ".join(forecast.roles(found, shown))
+    return [f"{kind} {found.members[shown].name} of {len(found.members)}", *([roles] if roles else [])]
+
+
+def part(counts: Counts, area: float) -> list[Key]:
+    """Name the member of a part of a split screen, its roles, and the area (m2) that it has burned."""
+    found = counts.ensemble
+    roles = ", ".join(forecast.roles(found, counts.shown))
+    name = f"{counts.kind} {found.members[counts.shown].name}"
+    keys = [(_LINED + SHOWN, f"{name}, {roles}" if roles else name)]
+    return [*keys, ("", burned(area))]
+
+
+def burned(area: float) -> str:
+    """Format a burned area, m2."""
+    return f"{area / info.ACRE:,.0f} acres ({area / 1e4:,.0f} ha) burned"
+
+
+def legend(shot: Shot, counts: Counts, fronts: bool = True) -> list[Key]:
+    """Explain colours, lines and hatching; without `fronts`, colours and hatching alone."""
     found, kind, count = counts.ensemble, counts.kind, counts.count
     total = len(found.members)
     clock = f"{counts.moment.astimezone(ZoneInfo(shot.settings.time.zone)):%H:%M}"
@@ -77,11 +104,14 @@ def legend(shot: Shot, counts: Counts) -> list[Key]:
     if shares := shot.settings.forecast.shares:
         colours = COLOURS[: max(min(count, len(COLOURS)), 1)]
         steps = list(zip(colours, ranges(count, len(colours)), strict=True))
-        keys += [("", f"burned by {clock} in"), *((colour, f"{k} of {count}") for colour, k in steps[::-1])]
+        classes = [(colour, f"{k} of {count}") for colour, k in steps[::-1]]
+        classes[0] = classes[0][0], f"{classes[0][1]} {kind}s"
+        keys += [("", f"burned by {clock} in"), *classes]
         if len({member.weight for member in found.members}) > 1:
             keys.append(("", "members count equally, weights not used"))
-    keys.append((_LINED + SHOWN, f"front of {kind} {found.members[counts.shown].name}, burning"))
-    keys += _lines(counts, ", colours count all" if shares else "")
+    if fronts:
+        keys.append((_LINED + SHOWN, f"front of {kind} {found.members[counts.shown].name}, burning"))
+        keys += _lines(counts, ", colours count all" if shares else "")
     if counts.hatched:
         keys.append((HATCHED, "not simulated"))
     if (ended := total - count) > 0:

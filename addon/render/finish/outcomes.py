@@ -9,9 +9,12 @@ import numpy as np
 from firetwin_core import sensor
 from numpy.typing import NDArray
 
+from ...imaging import split_screen
+from ...run import info, times
+from ...shot import forecast
 from ...shot.passes import view_of
 from ...shot.shot import Shot
-from . import Files
+from . import Files, _forecast_text
 
 SECONDS = Fraction(3, 2)
 """Time of one run on the screen, s."""
@@ -20,11 +23,18 @@ _OTHER = 0.25  # grey level of the parts of the bar that are not shown
 
 
 def finish(files: Files, needed: Mapping[str, Files], shot: Shot, _camera: str, frame: int) -> None:
-    """Choose the picture of a frame, and draw the bar."""
-    names = ["forecast", *(view_of("forecast", label) for label in shot.others)]
-    which = turn(frame, shot.settings.time.rate, len(names))
-    picture = sensor.read_image(needed[names[which]]["png"])[..., :3]
-    sensor.write_image(files["png"], with_bar(picture, which, len(names)))
+    """Choose the picture of a frame, and draw the bar and the counter."""
+    runs = {"": shot.run, **shot.others}
+    which = turn(frame, shot.settings.time.rate, len(runs))
+    label, run = list(runs.items())[which]
+    picture = sensor.read_image(needed[view_of("forecast", label) if label else "forecast"]["png"])[..., :3]
+    found = forecast.of(shot.settings)
+    shown = forecast.member_of(shot.settings, run, first=not label)
+    counter = [f"outcome {which + 1} of {len(runs)}", *_forecast_text.member(found, shown)]
+    area = float(info.burned(run, [times.seconds(run, shot.utc(frame))])[0])
+    counter.append(_forecast_text.burned(area))
+    barred = with_bar(picture, which, len(runs))
+    sensor.write_image(files["png"], split_screen.sheet([barred], [[]], [], corner=counter))
 
 
 def turn(frame: int, rate: Fraction, runs: int) -> int:

@@ -56,9 +56,15 @@ def _in_forecast(settings: Settings) -> bool:
     return settings.forecast.ensemble is not None and settings.forecast.places
 
 
+def _first(shot: Shot) -> Shot:
+    """Return the shot of the first run, whose places all runs of a comparison have."""
+    first: Shot = getattr(shot, "first", shot)
+    return first
+
+
 def _find(shot: Shot) -> Labels:
     settings, ground = shot.settings.labels, shot.ground
-    places = labels.read(settings.file) if settings.file else labels.known(shot.run)
+    places = labels.read(settings.file) if settings.file else labels.known(_first(shot).run)
     inside = _within(places, ground.fields.latitude, ground.fields.longitude)
     if not inside:
         return _NONE

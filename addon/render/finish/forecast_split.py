@@ -1,0 +1,41 @@
+"""Compose pictures of several members to a split screen, tinted (see `shot.passes.forecast_split`)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from firetwin_core import sensor
+
+from ...imaging import split_screen
+from ...imaging.split_screen import Key
+from ...run import info, times
+from ...shot import comparison, forecast, picture_credits
+from ...shot.passes import view_of
+from ...shot.shot import Shot
+from . import Files, _forecast_ground, _forecast_text
+from ._forecast_ground import Ground
+
+_EMPTY = 0.07  # grey level behind the legend
+
+
+def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
+    """Compose the pictures."""
+    moment, grounds, keys = shot.utc(frame), list[Ground](), list[list[Key]]()
+    for label, run in {"": shot.run, **shot.others}.items():
+        own = {name: needed[view_of(name, label) if label else name] for name in ("rgb", "depth", "comp")}
+        shown = forecast.member_of(shot.settings, run, first=not label)
+        grounds.append(_forecast_ground.draw(own, shot, camera, frame, shown, others=False))
+        area = float(info.burned(run, [times.seconds(run, moment)])[0])
+        keys.append(_forecast_text.part(grounds[-1].counts, area))
+    pictures, marks = [ground.rgb for ground in grounds], [ground.marks for ground in grounds]
+    legend = _forecast_text.legend(shot, grounds[0].counts, fronts=False)
+    if len(pictures) == 3:
+        pictures.append(np.full_like(pictures[0], _EMPTY))
+        keys.append(legend)
+    else:
+        keys[0] += legend
+    said = [*comparison.caption(shot, frame)[:-1], *_forecast_text.when(shot, grounds[0].counts)]
+    height, width = pictures[0].shape[:2]
+    below = picture_credits.foot(shot, width, height, compares=True)
+    sensor.write_image(files["png"], split_screen.sheet(pictures, keys, said, below, marks=marks))
