@@ -35,7 +35,7 @@ def group(mask: Mask, gap: int) -> tuple[Labels, int]:
     """Label groups of components whose gaps are at most `gap` pixels, as `label` does.
 
     A plume that a trunk or a narrow ridge divides is so one group. Gaps are counted along the axis with more
-    pixels; those of an odd number are rounded down to the next even number.
+    pixels; an odd `gap` is rounded down to an even number.
     """
     labels, count = label(dilate(mask, gap // 2))
     return np.where(mask, labels, 0).astype(np.int32), count

@@ -115,7 +115,13 @@ def tolerances_per_degree(fire: Reach, tolerance: float) -> NDArray[np.float64]:
 
 
 def simplify(points: Line, scale: NDArray[np.float64]) -> Line:
-    """Simplify a closed line; removed points are less than one unit of `scale` (per degree) from the line.
+    """Simplify a closed line as `simplify_open`; lines that would have no area left stay."""
+    found = simplify_open(points, scale)
+    return found if len(found) > 3 else points
+
+
+def simplify_open(points: Line, scale: NDArray[np.float64]) -> Line:
+    """Simplify a line; removed points are less than 1 from it after multiplication by `scale`.
 
     Douglas and Peucker, The Canadian Cartographer 10(2) (1973), starting from the first point and the point
     farthest from it.
@@ -137,4 +143,4 @@ def simplify(points: Line, scale: NDArray[np.float64]) -> Line:
             middle = first + 1 + farthest
             kept.add(middle)
             parts += [(first, middle), (middle, last)]
-    return points[sorted(kept)] if len(kept) > 3 else points
+    return points[sorted(kept)]

@@ -7,7 +7,10 @@ from datetime import UTC, datetime
 
 import numpy as np
 from firetwin.dataset.rendered import Camera, Rendered
+from firetwin.dataset.survey import Place
+from firetwin.shot.georeference import Georeference
 from firetwin.shot.passes import masks
+from firetwin_core import geo
 
 
 def looking(
@@ -62,3 +65,21 @@ def plane(camera: Camera, **maps) -> Rendered:
         model_time=3600.0,
     )
     return replace(sample, **maps)
+
+
+def flat_place(**more) -> Place:
+    """Make a place whose ground is z = 0 and burned, 25 m below the ellipsoid's sea level."""
+    frame = geo.LocalFrame(38.8, -120.6, 0.0)
+    place = Place(
+        Georeference(frame, -25.0, "a test"),
+        ground=lambda x, _: np.zeros(np.shape(x)),
+        burns=lambda x, _: np.ones(np.shape(x), bool),
+        ignition=0.0,
+    )
+    return replace(place, **more)
+
+
+def degrees(place: Place, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Convert points at z = 0 to degrees east and north (n, 2)."""
+    latitude, longitude, _ = place.georeference.frame.reverse(np.column_stack([x, y, np.zeros(len(x))]))
+    return np.column_stack([longitude, latitude])

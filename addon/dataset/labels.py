@@ -1,0 +1,281 @@
+"""Labels of a sample: plumes and flames with boxes and masks, the front and the horizon. Needs no Blender.
+
+Smoke counts where it hides at least `ALPHAS[0]` of the background and changes the picture by at least
+`CONTRAST`: smoke that nobody can see has no box. Fire counts where the mask pass shows it, or where flames
+add at least `GLOW` of white to the picture. Parts with gaps of at most `GAP` of the picture's width are one
+instance, so a trunk, a narrow ridge or a thin spot does not divide a plume; wider terrain does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..shot.cameras import path
+from ..shot.passes import masks as classes
+from . import components, survey, truth
+from .files import MOST, Masks
+from .rendered import Rendered
+from .survey import Place
+from .truth import Annotation, Box, CameraPose, Polyline, Truth
+
+ALPHAS = (0.05, 0.2, 0.5)
+"""Opacities of smoke: the first one outlines a plume, each has a box."""
+CONTRAST = 0.02
+"""Least difference from the smoke-free twin, share of full scale of a channel in display values. The mean
+over 5 x 5 pixels counts, so that noise does not. H. Koschmieder (1924, "Theorie der horizontalen Sichtweite") has
+2 % of luminance as threshold of sight; to use the same share of display values is our assumption.
+"""
+GLOW = 0.02
+"""Least light of flames, share of white, in the channel with most of it (assumed, as for smoke)."""
+GAP = 0.02
+"""Largest gap within an instance, share of the picture's width."""
+MIN_PIXELS = 16
+"""Least number of visible pixels of an instance with a box."""
+
+SMOKE_BAND = "visible: opacity in green light, contrast in red, green and blue"
+FIRE_BAND = "visible"
+
+_REACH = 2  # pixels on each side of the mean contrast
+
+Mask = NDArray[np.bool_]
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Instance:
+    """Pixels of an instance: rows and columns without smoke, and which of them are visible."""
+
+    category: int
+    row: NDArray[np.int64]
+    column: NDArray[np.int64]
+    visible: Mask
+
+    @property
+    def pixels(self) -> int:
+        return int(self.visible.sum())
+
+    def place(self, chosen: Mask) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return rows and columns of some of the pixels."""
+        return self.row[chosen], self.column[chosen]
+
+
+def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
+    """Label a rendered sample.
+
+    Parameters
+    ----------
+    place
+        Ground and fire at the model time of the sample.
+    index
+        Number of the sample.
+
+    Returns
+    -------
+    The truth without the fields that only its draw knows (split, groups, source, sensor), and the masks.
+    """
+    contrast = smoke_contrast(rendered)
+    smoke = rendered.alpha >= ALPHAS[0]
+    seen = smoke & (contrast >= CONTRAST)
+    visible, amodal = fire_masks(rendered)
+    found = [
+        *_instances(truth.FIRE, amodal, visible, rendered.camera.width),
+        *_instances(truth.SMOKE, seen, seen, rendered.camera.width),
+    ]
+    large = [each for each in found if each.pixels >= MIN_PIXELS][:MOST]
+    small = [each for each in found if not any(each is other for other in large)]
+    annotations = [
+        _annotation(number, each, rendered, place, contrast) for number, each in enumerate(large + small, 1)
+    ]
+    since = None if place.ignition is None else rendered.model_time - place.ignition
+    made = Truth(
+        index=index,
+        camera=camera_pose(rendered, place),
+        utc=rendered.time.isoformat(),
+        model_time_s=rendered.model_time,
+        seconds_since_ignition=since,
+        annotations=tuple(annotations[: len(large)]),
+        below_size=tuple(annotations[len(large) :]),
+        front=_polylines(survey.front_in_picture(place, rendered.camera)),
+        front_geojson=place.geojson(),
+        horizon=_polylines(survey.skyline(rendered.depth)),
+        labelling=thresholds() | {"smoke_without_contrast_pixels": int((smoke & ~seen).sum())},
+    )
+    return made, _paint(large, rendered.depth.shape)
+
+
+def thresholds() -> dict[str, Any]:
+    """Return the thresholds and bands of the labels for the metadata."""
+    return {
+        "smoke": {"band": SMOKE_BAND, "alpha": list(ALPHAS), "contrast": CONTRAST},
+        "fire": {"band": FIRE_BAND, "glow_of_white": GLOW, "class": "masks: fire"},
+        "gap_of_width": GAP,
+        "min_pixels": MIN_PIXELS,
+    }
+
+
+def smoke_contrast(rendered: Rendered) -> Array:
+    """Compute how much smoke changes the picture (h, w), 0..1 of full scale, in the channel with the most."""
+    difference = rendered.rgb.astype(np.float64) - rendered.twin
+    contrast: Array = np.abs(components.local_mean(difference, _REACH)).max(axis=-1)
+    return contrast
+
+
+def fire_masks(rendered: Rendered) -> tuple[Mask, Mask]:
+    """Find the pixels (h, w) that show fire, and those that would without smoke."""
+    white = 2.0**-rendered.exposure
+    bright, bright_twin = (
+        light.max(axis=-1) >= GLOW * white for light in (rendered.fire, rendered.twin_fire)
+    )
+    visible = (rendered.classes == classes.FIRE) | bright
+    return visible, visible | (rendered.surface == classes.FIRE) | bright_twin
+
+
+def camera_pose(rendered: Rendered, place: Place) -> CameraPose:
+    """Describe pose and lens of the camera."""
+    camera, origin = rendered.camera, place.georeference
+    here = camera.to_world[:3, 3]
+    latitude, longitude, height = origin.geodetic(here)[0].tolist()
+    heading, pitch, roll = _angles(camera.to_world[:3, :3], place, here)
+    return CameraPose(
+        width=camera.width,
+        height=camera.height,
+        fx=float(camera.fx),
+        fy=float(camera.fy),
+        cx=float(camera.cx),
+        cy=float(camera.cy),
+        camera_to_world=camera.to_world.tolist(),
+        latitude=latitude,
+        longitude=longitude,
+        ellipsoidal_height_m=height,
+        origin_latitude=origin.latitude,
+        origin_longitude=origin.longitude,
+        origin_ellipsoidal_height_m=origin.height,
+        geoid_m=origin.geoid_m,
+        height_above_ground_m=float(place.height_above_ground(here[None])[0]),
+        heading=heading,
+        pitch=pitch,
+        roll=roll,
+    )
+
+
+def _angles(turned: Array, place: Place, here: Array) -> tuple[float, float, float]:
+    """Compute heading, pitch and roll of a rotation at a point, degrees."""
+    east, north, up = path.compass(place.georeference.frame, here)
+    right, above, ahead = turned[:, 0], turned[:, 1], -turned[:, 2]
+    # for a camera looking straight down, the upper edge of the picture defines the heading
+    level = ahead if abs(ahead @ up) < 0.9999 else above
+    heading = np.degrees(np.arctan2(level @ east, level @ north)) % 360.0
+    pitch = np.degrees(np.arcsin(np.clip(ahead @ up, -1.0, 1.0)))
+    roll = 0.0 if level is above else np.degrees(np.arctan2(-(right @ up), above @ up))
+    return float(heading), float(pitch), float(roll)
+
+
+def _instances(category: int, amodal: Mask, visible: Mask, width: int) -> list[_Instance]:
+    """Separate masks into instances, with the most visible pixels first."""
+    labels, count = components.group(amodal, round(GAP * width))
+    row, column = np.nonzero(amodal)
+    number = labels[row, column]
+    order = np.argsort(number, kind="stable")
+    bounds = np.searchsorted(number[order], np.arange(1, count + 2))
+    found = []
+    for first, last in pairwise(bounds.tolist()):
+        some = order[first:last]
+        found.append(_Instance(category, row[some], column[some], visible[row[some], column[some]]))
+    return sorted(found, key=lambda each: -each.pixels)
+
+
+def _annotation(
+    number: int, instance: _Instance, rendered: Rendered, place: Place, contrast: Array
+) -> Annotation:
+    """Measure an instance."""
+    row, column = instance.row, instance.column
+    shown = instance.place(instance.visible)
+    made = Annotation(
+        id=number,
+        category=instance.category,
+        box=_box(*shown),
+        pixels=instance.pixels,
+        amodal_box=_box(row, column),
+        amodal_pixels=len(row),
+        visible_fraction=instance.pixels / len(row),
+        cut_by_edge=_touches_edge(row, column, rendered.depth.shape),
+        band=SMOKE_BAND if instance.category == truth.SMOKE else FIRE_BAND,
+        max_temperature_k=float(rendered.kelvin[row, column].max()),
+        seconds_since_ignition=None if place.ignition is None else rendered.model_time - place.ignition,
+    )
+    if instance.category == truth.SMOKE:
+        return _measure_smoke(made, instance, rendered, place, contrast)
+    return _measure_fire(made, instance, rendered, place)
+
+
+def _measure_smoke(
+    made: Annotation, instance: _Instance, rendered: Rendered, place: Place, contrast: Array
+) -> Annotation:
+    """Add opacity boxes, contrast, distance and top of a plume."""
+    row, column = instance.row, instance.column
+    alpha, away = rendered.alpha[row, column], rendered.smoke_range[row, column]
+    boxes = {f"{least:g}": _box(*instance.place(alpha >= least)) for least in ALPHAS if alpha.max() >= least}
+    known = np.isfinite(away)
+    made = replace(made, boxes_by_alpha=boxes, contrast=float(contrast[row, column].mean()))
+    if not known.any():
+        return made
+    points = survey.at_range(rendered.camera, *instance.place(known), away[known])
+    top = points[[np.argmax(place.height_above_sea(points))]]
+    return replace(
+        made,
+        distance_m=float(np.median(away[known])),
+        nearest_m=float(away[known].min()),
+        top_above_ground_m=float(place.height_above_ground(top)[0]),
+        top_above_sea_m=float(place.height_above_sea(top)[0]),
+    )
+
+
+def _measure_fire(made: Annotation, instance: _Instance, rendered: Rendered, place: Place) -> Annotation:
+    """Add distance and ground area of flames, from the burning ground behind their pixels."""
+    row, column = instance.row, instance.column
+    away, depth = rendered.range[row, column], rendered.depth[row, column]
+    known = np.isfinite(away)
+    points = survey.at_range(rendered.camera, *instance.place(known), away[known])
+    known[known] = place.burns(points[:, 0], points[:, 1])
+    if not known.any():
+        return made
+    return replace(
+        made,
+        distance_m=float(np.median(away[known])),
+        nearest_m=float(away[known].min()),
+        ground_area_m2=survey.ground_area(place, rendered.camera, *instance.place(known), depth[known]),
+    )
+
+
+def _paint(instances: list[_Instance], shape: tuple[int, ...]) -> Masks:
+    """Write the numbers of instances into masks (h, w)."""
+    smoke, fire, amodal = (np.zeros(shape, np.uint8) for _ in range(3))
+    for number, each in enumerate(instances, 1):
+        if each.category == truth.SMOKE:
+            smoke[each.row, each.column] = number
+        else:
+            amodal[each.row, each.column] = number
+            fire[each.place(each.visible)] = number
+    return Masks(smoke, fire, amodal)
+
+
+def _box(row: NDArray, column: NDArray) -> Box:
+    """Return the box around pixels; zeros without pixels."""
+    if not len(row):
+        return 0.0, 0.0, 0.0, 0.0
+    return float(column.min()), float(row.min()), float(column.max() + 1), float(row.max() + 1)
+
+
+def _touches_edge(row: NDArray, column: NDArray, shape: tuple[int, ...]) -> bool:
+    height, width = shape
+    return bool(row.min() == 0 or column.min() == 0 or row.max() == height - 1 or column.max() == width - 1)
+
+
+def _polylines(lines: list[Array]) -> list[Polyline]:
+    """Round polylines to hundredths of a pixel."""
+    return [[(round(float(u), 2), round(float(v), 2)) for u, v in line] for line in lines]

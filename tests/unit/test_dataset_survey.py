@@ -1,0 +1,135 @@
+"""Positions of pixels and of the front against closed forms: a level plane, a slope, a wall, a trunk."""
+
+import numpy as np
+import plain_samples
+import pytest
+from firetwin.dataset import survey
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+CAMERA = plain_samples.looking(-20.0, height=200.0, size=(640, 480))
+
+
+def pixels(mask):
+    return np.nonzero(mask)
+
+
+@given(st.floats(-80.0, 20.0), st.floats(20.0, 90.0), st.integers(0, 47), st.integers(0, 63))
+@settings(max_examples=40)
+def test_a_point_at_a_pixel_projects_to_its_centre(pitch, fov, row, column):
+    camera = plain_samples.looking(pitch, fov=fov)
+    at = np.array([row]), np.array([column])
+    point = survey.at_range(camera, *at, np.array([750.0]))
+    assert np.linalg.norm(point - camera.to_world[:3, 3]) == pytest.approx(750.0)
+    u, v, _ = survey.project(camera, point)
+    assert (u[0], v[0]) == pytest.approx((column + 0.5, row + 0.5))
+
+
+def test_points_behind_the_camera_have_no_pixel():
+    u, v, depth = survey.project(CAMERA, np.array([[0.0, -100.0, 200.0]]))
+    assert np.isnan(u).all()
+    assert np.isnan(v).all()
+    assert depth[0] < 0.0
+
+
+@pytest.mark.parametrize(("east", "north"), [(0.0, 0.0), (0.4, 0.0), (-0.2, 0.5), (0.0, -0.3)])
+def test_the_area_of_a_rectangle_on_a_slope_is_its_area_in_the_map(east, north):
+    place = plain_samples.flat_place(ground=lambda x, y: east * x + north * y)
+    camera = plain_samples.looking(-50.0, height=600.0, size=(640, 480))
+    rays = plain_samples.directions(camera)
+    # z + d r_z = east d r_x + north d r_y
+    depth = 600.0 / (east * rays[..., 0] + north * rays[..., 1] - rays[..., 2])
+    x, y = (depth * rays[..., k] for k in (0, 1))
+    row, column = pixels((abs(x - 20.0) < 120.0) & (abs(y - 500.0) < 90.0))
+    area = survey.ground_area(place, camera, row, column, depth[row, column])
+    assert area == pytest.approx(240.0 * 180.0, rel=0.02)
+
+
+def test_flat_views_have_no_area():
+    place = plain_samples.flat_place()
+    camera = plain_samples.looking(-3.0, height=100.0, size=(640, 480))
+    sample = plain_samples.plane(camera)
+    row, column = pixels((sample.depth > 1500.0) & np.isfinite(sample.depth))
+    assert survey.ground_area(place, camera, row, column, sample.depth[row, column]) is None
+    assert survey.ground_area(place, camera, row[:0], column[:0], row[:0]) is None
+
+
+def test_heights_are_above_the_sea_and_above_the_ground():
+    place = plain_samples.flat_place(ground=lambda x, _: np.full(np.shape(x), 120.0))
+    point = np.array([[0.0, 0.0, 450.0]])
+    assert place.height_above_sea(point) == pytest.approx(450.0)
+    assert place.height_above_ground(point) == pytest.approx(330.0)
+    far = np.array([[0.0, 20_000.0, 450.0]])  # the Earth curves away by d^2 / 2 R
+    assert place.height_above_sea(far)[0] == pytest.approx(450.0 + 20_000.0**2 / (2 * 6.37e6), abs=0.3)
+
+
+@pytest.mark.parametrize("pitch", [-12.0, -5.0, 4.0])
+def test_the_skyline_of_a_plane_is_the_horizon(pitch):
+    camera = plain_samples.looking(pitch, size=(640, 480))
+    (line,) = survey.skyline(plain_samples.plane(camera).depth)
+    level = camera.cy + camera.fy * np.tan(np.radians(pitch))
+    assert line[:, 1] == pytest.approx(level, abs=1.0)
+    assert (line[0, 0], line[-1, 0]) == (0.5, 639.5)
+
+
+def test_a_skyline_is_divided_where_a_trunk_reaches_the_upper_edge():
+    depth = plain_samples.plane(plain_samples.looking(-2.0)).depth.copy()
+    depth[:, 30:33] = 8.0
+    lines = survey.skyline(depth)
+    assert [(line[0, 0], line[-1, 0]) for line in lines] == [(0.5, 29.5), (33.5, 63.5)]
+    assert survey.skyline(np.full((48, 64), np.inf)) == []
+    assert survey.skyline(np.full((48, 64), 10.0)) == []
+
+
+def ring(place):
+    """Make a square front of 400 m around x = 0, y = 700 m, as degrees."""
+    x, y = np.array([-200.0, 200.0, 200.0, -200.0, -200.0]), np.array([500.0, 500.0, 900.0, 900.0, 500.0])
+    return (plain_samples.degrees(place, x, y),)
+
+
+def test_a_front_on_a_plane_is_where_its_corners_project():
+    place = plain_samples.flat_place()
+    place = plain_samples.flat_place(front=ring(place))
+    (line,) = survey.front_in_picture(place, CAMERA)
+    corners = np.array([[-200.0, 500.0, 0.0], [200.0, 500.0, 0.0], [200.0, 900.0, 0.0], [-200.0, 900.0, 0.0]])
+    u, v, _ = survey.project(CAMERA, corners)
+    for corner in np.column_stack([u, v]):
+        assert np.linalg.norm(line - corner, axis=1).min() < 1.0
+    assert line[0] == pytest.approx(line[-1], abs=1e-6)
+    assert len(line) <= 8
+
+
+def test_terrain_hides_a_front():
+    place = plain_samples.flat_place()
+    # a wall of 150 m at y = 300 hides what is behind it from a camera at 200 m, up to y = 1200
+    wall = plain_samples.flat_place(
+        front=ring(place), ground=lambda _, y: np.where(abs(y - 300.0) < 20.0, 150.0, 0.0)
+    )
+    assert survey.front_in_picture(wall, CAMERA) == []
+    low = plain_samples.flat_place(
+        front=ring(place), ground=lambda _, y: np.where(abs(y - 300.0) < 20.0, 60.0, 0.0)
+    )
+    assert len(survey.front_in_picture(low, CAMERA)) == 1
+
+
+def test_the_edge_of_the_picture_cuts_a_front():
+    place = plain_samples.flat_place()
+    place = plain_samples.flat_place(front=ring(place))
+    narrow = plain_samples.looking(-20.0, height=200.0, fov=20.0, size=(640, 480))
+    lines = survey.front_in_picture(place, narrow)
+    assert len(lines) == 2  # its near and its far side
+    assert all(len(line) == 2 for line in lines)
+    for u, v in np.concatenate(lines):
+        assert 0.0 <= u <= 640.0
+        assert 0.0 <= v <= 480.0
+    away = plain_samples.looking(20.0, height=200.0, fov=20.0, size=(640, 480))
+    assert survey.front_in_picture(place, away) == []
+
+
+def test_a_front_in_degrees_is_a_geometry_of_geojson():
+    place = plain_samples.flat_place()
+    assert place.geojson() is None
+    geometry = plain_samples.flat_place(front=ring(place)).geojson()
+    assert geometry["type"] == "MultiLineString"
+    ((first, *_),) = geometry["coordinates"]
+    assert first == pytest.approx([-120.6 - 200.0 / 86_900, 38.8 + 500.0 / 111_010], abs=2e-4)
