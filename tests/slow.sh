@@ -61,6 +61,7 @@ if $release; then
   else
     summary+=("left out: tests/system/extension.sh needs the wheels")
   fi
+  slow 3 tests/system/dataset_oracles.sh
   slow 9 tests/system/versions.sh 5.2
   slow 3 .venv/bin/python tests/system/fuzz/scenes.py --builds 20 --seconds 150
   slow 16 tests/system/window.sh

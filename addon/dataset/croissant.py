@@ -63,7 +63,9 @@ def write(folder: Path, about: About, hashes: Mapping[str, str], licences: Mappi
 
 def document(folder: Path, about: About, table_hash: str, licences: Mapping[str, str]) -> dict[str, Any]:
     """Make the metadata of a data set."""
-    found = sorted({licence for licence in (about.licence, *licences.values()) if licence})
+    found = sorted(
+        {licence for licence in (about.licence, *licences.values()) if licence and " " not in licence}
+    )
     return {
         "@context": _CONTEXT,
         "@type": "Dataset",
@@ -74,10 +76,15 @@ def document(folder: Path, about: About, table_hash: str, licences: Mapping[str,
         "rai:dataBiases": LIMITS,
         "rai:dataCollection": "Rendered by Firetwin from draws with a seed for each value",
         "rai:personalSensitiveInformation": "none",
-        **({"license": [f"https://spdx.org/licenses/{name}.html" for name in found]} if found else {}),
+        **({"license": [_address(name) for name in found]} if found else {}),
         "distribution": [_table(table_hash), *_file_sets(folder)],
         "recordSet": [_records()],
     }
+
+
+def _address(licence: str) -> str:
+    """Return the address of a licence of SPDX's list, or the name of another one."""
+    return licence if licence.startswith("LicenseRef-") else f"https://spdx.org/licenses/{licence}.html"
 
 
 def _table(table_hash: str) -> dict[str, Any]:

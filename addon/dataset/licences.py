@@ -11,14 +11,15 @@ from collections.abc import Iterable
 from .truth import Truth
 
 LICENCES, CREDITS = "licences", "credits"
+NOT_STATED = "not stated"
 
 
 def of_samples(samples: Iterable[Truth]) -> dict[str, str]:
-    """Collect the licence of each source, by name."""
+    """Collect the licence of each source, by name; "not stated" if a source has none."""
     found: dict[str, str] = {}
     for truth in samples:
         found |= truth.source.get(LICENCES, {})
-    return dict(sorted(found.items()))
+    return {name: licence or NOT_STATED for name, licence in sorted(found.items())}
 
 
 def credits_of(samples: Iterable[Truth]) -> list[str]:

@@ -15,20 +15,29 @@ NAME = "SHA256SUMS"
 
 def paths(folder: Path) -> Iterator[str]:
     """Yield the paths of all files relative to the folder, sorted, except SHA256SUMS and hidden files."""
-    found = []
-    for parent, folders, names in os.walk(folder):
-        folders[:] = [name for name in folders if not name.startswith(".")]
-        for name in names:
-            path = (Path(parent) / name).relative_to(folder).as_posix()
-            if not name.startswith(".") and path != NAME:
-                found.append(path)
-    yield from sorted(found)
+    for path in _walk(folder):
+        if not _name(path).startswith(".") and path != NAME:
+            yield path
 
 
 def leftovers(folder: Path) -> Iterator[str]:
-    """Yield temporary files and folders that a killed process left, relative to the folder."""
-    for path in sorted(folder.rglob(".*.part*")):
-        yield path.relative_to(folder).as_posix()
+    """Yield temporary files that a killed process left, relative to the folder."""
+    for path in _walk(folder):
+        if _name(path).startswith(".") and ".part" in _name(path):
+            yield path
+
+
+def _walk(folder: Path) -> list[str]:
+    """List the files outside of hidden folders, sorted."""
+    found = []
+    for parent, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        found += [(Path(parent) / name).relative_to(folder).as_posix() for name in names]
+    return sorted(found)
+
+
+def _name(path: str) -> str:
+    return path.rpartition("/")[2]
 
 
 def write(folder: Path) -> dict[str, str]:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from firetwin.dataset import about, check, files, finish, sums, truth, twins
 from firetwin.errors import InputError
+from firetwin.progress import Reporter
 from PIL import Image
 
 COUNT = 9
@@ -91,6 +92,20 @@ def test_half_written_pictures_are_found(folder):
 def test_leftovers_are_found(folder):
     (folder / "images" / ".000010.abc.part.jpg").write_bytes(b"half")
     only(folder, ".000010.abc.part.jpg: was left half-written", "delete it")
+
+
+def test_files_of_work_are_not_a_part_of_the_set(folder):
+    (folder / ".work").mkdir()
+    (folder / ".work" / ".a.part.json").write_text("")
+    assert not faults(folder)
+
+
+def test_the_exit_status_follows_the_faults(folder, capsys):
+    assert check.run(folder, Reporter("check")) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == f"{folder}: no faults"
+    (folder / "notes.txt").write_text("mine")
+    assert check.run(folder, Reporter("check")) == 1
+    assert capsys.readouterr().out.splitlines()[-1] == f"{folder}: 1 fault"
 
 
 def test_missing_samples_are_found(folder):
