@@ -5,9 +5,9 @@ ray). Extinction falls with height as exp(-z / H), so a ray from z0 to z1 has th
 exp(-z0 / H) (1 - exp(-u)) / u with u = (z1 - z0) / H. Haze affects camera rays only and does not scatter
 light onto other surfaces.
 
-In the boundary layer, air holds more dust and moisture (`sky.LOW_HAZE`). The radiance of thick haze is
-the radiance of the sky at the horizon, so that distant land merges with the sky. Scenes with the globe have
-neither.
+In the boundary layer, air holds more dust, moisture and smoke (`shot.light.smoke_haze`). The radiance of
+thick haze is the radiance of the sky at the horizon, so that distant land merges with the sky. Scenes with
+the globe have neither.
 
 Near the ground haze is grey. A camera above the atmosphere also sees the molecules' blue: the difference of
 the Rayleigh optical depths of green and blue from red (`space_sky`) is added, in proportion to the same path.
@@ -23,10 +23,11 @@ import bpy
 from ..blender import nodes, owned
 from ..blender.owned import Stage
 from ..ellipsoid import MEAN_RADIUS
-from ..shot.light import sky
+from ..shot.light import sky, smoke_haze
 from . import curved_air, space_sky
 
 _GROUP = "haze"
+_LOW = ("Low Extinction", "Low Height")
 _WHITE = (1.0, 1.0, 1.0, 1.0)
 COLOUR, HORIZON = (f'nodes["{name}"].outputs[0].default_value' for name in ("Colour", "Horizon"))
 """Data paths of the airlight's radiance in the node group: near the camera, and where haze is thick."""
@@ -54,11 +55,15 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     horizon.name = "Horizon"
     density = tree.input("Density", 1.0, "Factor on the haze of the scene; 0: none", "Haze")
     tint = tree.input("Tint", _WHITE, "Factor on the colour of the scene's haze", "Haze")
+    low, height = (tree.node("ShaderNodeValue") for _ in range(2))
+    low.name, height.name = _LOW
+    low.outputs[0].default_value, height.outputs[0].default_value = sky.HAZE * sky.LOW_HAZE, sky.LOW_HEIGHT
     path = weighted_path_length(tree, stage, sky.HAZE_HEIGHT)
+    depth = path * extinction
     earth = curved_air.earth(stage)
     if earth is None:
-        path = path + weighted_path_length(tree, stage, sky.LOW_HEIGHT) * sky.LOW_HAZE
-    depth = path * (extinction * density)
+        depth = depth + weighted_path_length(tree, stage, tree.pick(height)) * tree.pick(low)
+    depth = depth * density
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     fraction = (1.0 - (-depth).exp()) * camera
     distant = colour if earth else tree.mix_colour(depth.smoothstep(*sky.THICK_HAZE), colour, horizon)
@@ -92,9 +97,10 @@ def _rayleigh_shares(
     return [1.0 - (zeniths * (red - each) - depth).exp() for each in space_sky.DEPTH]
 
 
-def weighted_path_length(tree: nodes.Tree, stage: Stage, height: float) -> nodes.Value:
+def weighted_path_length(tree: nodes.Tree, stage: Stage, height: float | nodes.Value) -> nodes.Value:
     """Return the path length (m) to the camera, weighted by exp(-z / `height`), flat or curved."""
     if (earth := curved_air.earth(stage)) is not None:
+        assert isinstance(height, float)
         return curved_air.weighted_path_length(tree, earth, height)
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     geometry = tree.node("ShaderNodeNewGeometry")
@@ -106,10 +112,20 @@ def weighted_path_length(tree: nodes.Tree, stage: Stage, height: float) -> nodes
     return distance * (-low).exp() * ((1.0 - (-rise).exp()) / rise)
 
 
-def set_amount(stage: Stage, amount: float) -> bpy.types.NodeTree:
-    """Set the amount of haze (1: a dry September day), and return the node group."""
+def set_amount(stage: Stage, amount: float, low: smoke_haze.Layer | None = None) -> bpy.types.NodeTree:
+    """Set the amount of haze, and return the node group.
+
+    Parameters
+    ----------
+    amount
+        1: a dry September day.
+    low
+        Layer near the ground; None: of such a day, times `amount`.
+    """
     group = _group(stage)
     group.nodes["Extinction"].outputs[0].default_value = sky.HAZE * amount
+    for name, value in zip(_LOW, low or (sky.HAZE * amount * sky.LOW_HAZE, sky.LOW_HEIGHT), strict=True):
+        group.nodes[name].outputs[0].default_value = value
     return group
 
 
@@ -128,14 +144,16 @@ def illumination(
         [part * by for part, by in zip(group.nodes[name].outputs[0].default_value[:3], tint, strict=True)]
         for name in ("Colour", "Horizon")
     )
-    extinction = density * float(group.nodes["Extinction"].outputs[0].default_value)
+    extinction, low, height = (
+        float(group.nodes[name].outputs[0].default_value) for name in ("Extinction", *_LOW)
+    )
     plain = curved_air.earth(stage) is not None
     return {
         "air": air,
         "horizon": air if plain else horizon,
         "thick_haze": sky.THICK_HAZE,
-        "haze": (extinction, 0.0 if plain else extinction * sky.LOW_HAZE),
-        "haze_height": (sky.HAZE_HEIGHT, sky.LOW_HEIGHT),
+        "haze": (density * extinction, 0.0 if plain else density * low),
+        "haze_height": (sky.HAZE_HEIGHT, height),
     }
 
 
@@ -155,10 +173,18 @@ def airlight(tree: nodes.Tree, stage: Stage) -> nodes.Value:
     return tree.pick(tree.node("ShaderNodeGroup", node_tree=_group(stage)), "Airlight")
 
 
-def before_sky(tree: nodes.Tree, stage: Stage, light: nodes.Value, up: nodes.Value) -> nodes.Value:
-    """Attenuate the sky for rays of slope sine `up`; the sky texture already includes a dry day's haze."""
+def before_sky(
+    tree: nodes.Tree, stage: Stage, light: nodes.Value, up: nodes.Value, smoke: float = 0.0
+) -> nodes.Value:
+    """Attenuate the sky for rays of slope sine `up`; the sky texture already includes a dry day's haze.
+
+    Parameters
+    ----------
+    smoke
+        Optical depth of smoke above the ground.
+    """
     group = _group(stage)
-    more = (group.nodes["Extinction"].outputs[0].default_value - sky.HAZE) * sky.HAZE_HEIGHT
+    more = (group.nodes["Extinction"].outputs[0].default_value - sky.HAZE) * sky.HAZE_HEIGHT + smoke
     if more <= 1.0e-3:
         return light
     colour = airlight(tree, stage)

@@ -84,3 +84,14 @@ def test_one_material_may_have_more_haze_of_another_colour(stage, shoot):
 def test_no_haze_hides_nothing(stage, shoot):
     _red(stage, 0.0)
     assert _look(stage, shoot, 0.0, 60_000.0) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_layer_of_smoke_near_the_ground_has_its_own_height(stage, shoot):
+    _red(stage, 1.0)
+    haze.set_amount(stage, 1.0, (3.0e-4, 2000.0))
+    depth = sky.HAZE * math.exp(-1500.0 / sky.HAZE_HEIGHT) + 3.0e-4 * math.exp(-1500.0 / 2000.0)
+    seen = _look(stage, shoot, 1500.0, -5000.0)
+    assert seen == pytest.approx(2.0 * (1.0 - math.exp(-depth * 5000.0)), rel=0.01)
+    lit = haze.illumination(stage)
+    assert lit["haze"] == pytest.approx((sky.HAZE, 3.0e-4))
+    assert lit["haze_height"] == pytest.approx((sky.HAZE_HEIGHT, 2000.0))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
-from ...shot.light import exposure
+from ...shot.light import exposure, smoke_haze
 from ...shot.light.sky import DAY_SKY, State, state
 from ...shot.passes import masks
 from ...shot.shot import Shot
@@ -41,7 +41,8 @@ def build(shot: Shot, stage: Stage) -> list[str]:
     if stage.is_own and stage.scene.world is not None and owned.is_ours(stage.scene.world):
         stage.scene.world = None  # so that it is removed with Firetwin's other objects
     _build_sun(stage.part("Light"), frames, states)
-    group = haze.set_amount(stage, shot.settings.light.haze)
+    low = smoke_haze.near_ground(shot.settings.light, smoke_haze.ground_height(shot.run))
+    group = haze.set_amount(stage, shot.settings.light.haze, low)
     for path, name in ((haze.COLOUR, "haze"), (haze.HORIZON, "horizon")):
         colours = np.array([(*getattr(each, name), 1.0) for each in states])
         add_keyframes(group, path, frames, colours)
@@ -98,7 +99,7 @@ def _build_world(shot: Shot, stage: Stage, frames: NDArray[np.float64], states: 
     night = any(state.sky[0] < 0.0 for state in states)
     dark, stars = night_sky.radiance(tree, shot, frames, states) if night else (tuple(DAY_SKY), None)
     light = tree.vector("ADD", light, dark)
-    light = haze.before_sky(tree, stage, light, up)
+    light = haze.before_sky(tree, stage, light, up, smoke_haze.smoke_depth(shot.settings.light))
     earth = curved_air.earth(stage)
     if earth is not None:
         light = space_sky.attenuate_sky(tree, earth, light, haze.airlight(tree, stage), stars)

@@ -20,7 +20,7 @@ from ..cameras.path import Path
 from ..fire import heat_release
 from ..shot import Shot
 from ..terrain import noise
-from . import sky
+from . import sky, smoke_haze
 
 _RAYS = 16, 9
 _REACH = np.geomspace(40.0, 60_000.0, 72)  # m, distances of ground samples along a ray
@@ -102,7 +102,9 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
     place = start + far[:, None] * along
     sunlit = _GROUND / np.pi * light.power * _sunlit(smoke, place, light, 1.0)
     crowns = 1.0 - (1.0 - _SHADE) * _crowns(shot, view.position[frame - 1], time)
-    through = np.exp(-shot.settings.light.haze * _haze_depth(start[:, 2], along[:, 2], far))
+    haze = _haze_depth(start[:, 2], along[:, 2], far, (sky.HAZE * shot.settings.light.haze, sky.HAZE_HEIGHT))
+    layer = smoke_haze.smoke(shot.settings.light, smoke_haze.ground_height(shot.run))
+    through = np.exp(-haze - _haze_depth(start[:, 2], along[:, 2], far, layer))
     depth, met, bright = _depth(smoke, start, along, ends)
     hidden = 1.0 - np.exp(-depth)
     shade = _sunlit(smoke, start + met[:, None] * along, light, _THROUGH)
@@ -184,13 +186,13 @@ def _ends(shot: Shot, start: Array, along: Array) -> Array:
     return np.where(low.any(axis=1), reach[np.arange(len(low)), np.argmax(low, axis=1)], np.inf)
 
 
-def _haze_depth(height: Array, up: Array, far: Array) -> Array:
-    """Optical depth (n,) of haze along rays from heights (m) with sines of elevation `up`, as in `haze`."""
+def _haze_depth(height: Array, up: Array, far: Array, layer: smoke_haze.Layer) -> Array:
+    """Optical depth (n,) of a layer along rays from heights (m) with sines of elevation `up`; see `haze`."""
     above = np.maximum((height - _AIR) / np.maximum(-up, 1.0e-3), 0.0)
     height, far = np.minimum(height, _AIR), np.maximum(far - above, 0.0)
-    rise = up * far / sky.HAZE_HEIGHT
+    rise = up * far / layer[1]
     rise = np.where(np.abs(rise) < 1.0e-3, 1.0e-3, rise)
-    return sky.HAZE * far * np.exp(-height / sky.HAZE_HEIGHT) * (1.0 - np.exp(-rise)) / rise
+    return layer[0] * far * np.exp(-height / layer[1]) * (1.0 - np.exp(-rise)) / rise
 
 
 def _gradation(up: Array) -> Array:
