@@ -45,6 +45,7 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     group.interface.new_socket("Fraction", in_out="OUTPUT", socket_type="NodeSocketFloat")
     group.interface.new_socket("Colour", in_out="OUTPUT", socket_type="NodeSocketColor")
     group.interface.new_socket("Airlight", in_out="OUTPUT", socket_type="NodeSocketColor")
+    group.interface.new_socket("Horizon", in_out="OUTPUT", socket_type="NodeSocketColor")
     tree = nodes.Tree(group)
     extinction = tree.node("ShaderNodeValue")
     extinction.name = "Extinction"
@@ -74,7 +75,7 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
         fraction = shares[1] * camera
         ratios = [tree.math("DIVIDE", each, tree.math("MAXIMUM", shares[1], 1e-6)) for each in shares]
         shown = tree.vector("MULTIPLY", light, tree.combine(*ratios))
-    tree.finish({"Fraction": fraction, "Colour": shown, "Airlight": colour})
+    tree.finish({"Fraction": fraction, "Colour": shown, "Airlight": colour, "Horizon": horizon})
     return group
 
 
@@ -187,9 +188,12 @@ def before_sky(
     more = (group.nodes["Extinction"].outputs[0].default_value - sky.HAZE) * sky.HAZE_HEIGHT + smoke
     if more <= 1.0e-3:
         return light
+    depth = tree.math("DIVIDE", more, tree.math("MAXIMUM", up, 0.005))
     colour = airlight(tree, stage)
-    part = 1.0 - tree.math("DIVIDE", -more, tree.math("MAXIMUM", up, 0.005)).exp()
-    return tree.mix_colour(part, light, colour)
+    if curved_air.earth(stage) is None:  # merges with distant land, as in `_group`
+        horizon = tree.pick(tree.node("ShaderNodeGroup", node_tree=group), "Horizon")
+        colour = tree.mix_colour(depth.smoothstep(*sky.THICK_HAZE), colour, horizon)
+    return tree.mix_colour(1.0 - (-depth).exp(), light, colour)
 
 
 def apply(tree: nodes.Tree, shader: Any, stage: Stage, glow: nodes.Value | None = None) -> nodes.Value:
