@@ -2,8 +2,9 @@
 
 Smoke counts where it hides at least `ALPHAS[0]` of the background and changes the picture by at least
 `CONTRAST`: smoke that nobody can see has no box. Fire counts where the mask pass shows it, or where flames
-add at least `GLOW` of white to the picture. Parts with gaps of at most `GAP` of the picture's width are one
-instance, so a trunk, a narrow ridge or a thin spot does not divide a plume; wider terrain does.
+give at least `GLOW` of white and `SHARE` of the light of the pixel. Parts with gaps of at most `GAP` of the
+picture's width are one instance: a trunk, a narrow ridge or a thin spot does not divide a plume; wider
+terrain does.
 """
 
 from __future__ import annotations
@@ -27,11 +28,13 @@ ALPHAS = (0.05, 0.2, 0.5)
 """Opacities of smoke: the first one outlines a plume, each has a box."""
 CONTRAST = 0.02
 """Least difference from the smoke-free twin, share of full scale of a channel in display values. The mean
-over 5 x 5 pixels counts, so that noise does not. H. Koschmieder (1924, "Theorie der horizontalen Sichtweite") has
-2 % of luminance as threshold of sight; to use the same share of display values is our assumption.
+over 5 x 5 pixels counts, so that noise does not. H. Koschmieder (1924, "Theorie der horizontalen Sichtweite")
+has 2 % of luminance as threshold of sight; to use this share of display values is our assumption.
 """
 GLOW = 0.02
-"""Least light of flames, share of white, in the channel with most of it (assumed, as for smoke)."""
+"""Least light of flames, share of white, in their brightest channel (assumed, as for smoke)."""
+SHARE = 0.2
+"""Least share of flames in the light of a pixel, in that channel: they then look orange (by eye)."""
 GAP = 0.02
 """Largest gap within an instance, share of the picture's width."""
 MIN_PIXELS = 16
@@ -112,7 +115,7 @@ def thresholds() -> dict[str, Any]:
     """Return the thresholds and bands of the labels for the metadata."""
     return {
         "smoke": {"band": SMOKE_BAND, "alpha": list(ALPHAS), "contrast": CONTRAST},
-        "fire": {"band": FIRE_BAND, "glow_of_white": GLOW, "class": "masks: fire"},
+        "fire": {"band": FIRE_BAND, "glow_of_white": GLOW, "share_of_light": SHARE, "class": "masks: fire"},
         "gap_of_width": GAP,
         "min_pixels": MIN_PIXELS,
     }
@@ -127,12 +130,15 @@ def smoke_contrast(rendered: Rendered) -> Array:
 
 def fire_masks(rendered: Rendered) -> tuple[Mask, Mask]:
     """Find the pixels (h, w) that show fire, and those that would without smoke."""
-    white = 2.0**-rendered.exposure
-    bright, bright_twin = (
-        light.max(axis=-1) >= GLOW * white for light in (rendered.fire, rendered.twin_fire)
-    )
-    visible = (rendered.classes == classes.FIRE) | bright
-    return visible, visible | (rendered.surface == classes.FIRE) | bright_twin
+    least = GLOW * 2.0**-rendered.exposure
+    visible = (rendered.classes == classes.FIRE) | _is_bright(rendered.fire, rendered.light, least)
+    amodal = (rendered.surface == classes.FIRE) | _is_bright(rendered.twin_fire, rendered.twin_light, least)
+    return visible, visible | amodal
+
+
+def _is_bright(flames: NDArray, light: NDArray, least: float) -> Mask:
+    """Find the pixels (h, w) in which flames are bright enough, and bright compared with all light."""
+    return np.any((flames >= least) & (flames >= SHARE * light), axis=-1)
 
 
 def camera_pose(rendered: Rendered, place: Place) -> CameraPose:

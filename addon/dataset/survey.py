@@ -15,6 +15,7 @@ from ..run.fronts import Line
 from ..shot import georeference
 from ..shot.georeference import Georeference
 from ..shot.shot import Shot
+from ..shot.terrain.terrain import UNKNOWN, Terrain, box
 from .rendered import Camera
 
 Array = NDArray[np.float64]
@@ -32,6 +33,9 @@ _SIGHTS = 64  # points of a line of sight that are compared with the ground
 _HIDDEN = 2.0  # m, height of the ground above a line of sight that hides its end
 _NEAR = 1.0  # m before the camera
 _DIGITS = 6  # of degrees in GeoJSON: 0.1 m
+_ISLAND = 600.0  # s, weight of the unburned share of ground compared with time to its arrival
+_SIMPLIFIED = 5.0  # m, largest deviation of the front in GeoJSON
+_PER_DEGREE = 111_000.0  # m
 
 
 @dataclass(frozen=True)
@@ -70,28 +74,39 @@ class Place:
         return heights
 
     def geojson(self) -> dict[str, Any] | None:
-        """Return the front as a geometry of GeoJSON (RFC 7946); None without a front."""
+        """Return the front as a geometry of GeoJSON (RFC 7946), simplified; None without a front."""
         if not self.front:
             return None
-        return {
-            "type": "MultiLineString",
-            "coordinates": [np.round(line, _DIGITS).tolist() for line in self.front],
-        }
+        latitude = np.radians(self.georeference.latitude)
+        scale = _PER_DEGREE / _SIMPLIFIED * np.array([np.cos(latitude), 1.0])
+        lines = [np.round(fronts.simplify(line, scale), _DIGITS).tolist() for line in self.front]
+        return {"type": "MultiLineString", "coordinates": lines}
 
 
 def of_shot(shot: Shot, time: float) -> Place:
-    """Survey the place of a shot at a model time, s. The front is simplified by half a fuel cell."""
+    """Survey the place of a shot at a model time, s."""
     ground, arrival = shot.bare_ground, shot.arrival
     first = float(np.nanmin(arrival)) if np.isfinite(arrival).any() else None
-    fire = front.reach(shot.run)
-    scale = fronts.tolerances_per_degree(fire, fronts.cell_tolerance(fire))
 
     def burns(x: Array, y: Array) -> Mask:
         row, column = ground.indices(*ground.geodetic(x, y))
         return ground.arrival_at(row, column) <= time + BURN_TIME
 
-    lines = tuple(fronts.simplify(line, scale) for line in fronts.trace(fire, time))
-    return Place(georeference.resolve(shot), shot.ground.up, burns, lines, first)
+    return Place(georeference.resolve(shot), shot.ground.up, burns, _front(ground, time), first)
+
+
+def _front(ground: Terrain, time: float) -> tuple[Line, ...]:
+    """Trace the front of the ground as drawn, at a model time, s.
+
+    It differs from the run's front in the unburned islands that the terrain of a synthetic run invents.
+    """
+    ahead = np.maximum(ground.burn_time - time, _ISLAND * (0.5 - ground.burned))
+    near = box(ahead <= 0.0, more=1)
+    if near is None:
+        return ()
+    row, column, after = front.contour(np.pad(ahead[near], 1, constant_values=UNKNOWN))
+    rows, columns = (at + lines.start - 1 for at, lines in zip((row, column), near, strict=True))
+    return tuple(fronts.rings(*ground.places(rows, columns), after))
 
 
 def rays(camera: Camera, row: NDArray, column: NDArray) -> Array:

@@ -79,7 +79,11 @@ def choose_times(run: Run, zone: str) -> list[float]:
 
 def trace(fire: Reach, time: float) -> list[Line]:
     """Trace closed lines of the front at a model time (s); the first point is repeated at the end."""
-    latitude, longitude, after = fire.line(time)
+    return rings(*fire.line(time))
+
+
+def rings(latitude: Line, longitude: Line, after: NDArray[np.int64]) -> list[Line]:
+    """Collect closed lines from points (n,) and the index of the next point of each (see `front.contour`)."""
     lines, left = [], np.ones(len(after), bool)
     for start in range(len(after)):
         if not left[start]:

@@ -187,9 +187,20 @@ def test_an_instance_at_the_edge_is_cut(rows, cut):
 def test_dim_flames_count_by_the_exposure():
     sample = plain_samples.plane(CAMERA)
     dim = np.where(block((60, 90), (60, 90)), 0.015, 0.0)[..., None].repeat(3, -1).astype(np.float32)
-    by_day = replace(sample, fire=dim, twin_fire=dim)
+    by_day = replace(sample, fire=dim, twin_fire=dim, light=dim + 0.02, twin_light=dim + 0.02)
     assert labels.label(by_day, PLACE, 1)[0].is_negative
     assert len(labels.label(replace(by_day, exposure=1.0), PLACE, 1)[0].annotations) == 1
+
+
+@pytest.mark.parametrize(("light", "visible"), [(0.1, 1.0), (0.4, 1.0), (0.6, 0.0)])
+def test_flames_that_bright_smoke_outshines_are_hidden(light, visible):
+    shown = block((60, 90), (60, 90))
+    sample = burning(plain_samples.plane(CAMERA), shown, shown)
+    dimmed = np.where(shown, 0.1, 0.0)[..., None].repeat(3, -1).astype(np.float32)
+    sample = replace(sample, fire=dimmed, light=np.full_like(dimmed, light))
+    found, _ = labels.label(sample, PLACE, 1)
+    (flames,) = found.annotations + found.below_size
+    assert flames.visible_fraction == visible
 
 
 def test_the_pose_of_the_file_projects_a_landmark_to_its_pixel():

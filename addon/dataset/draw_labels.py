@@ -1,0 +1,123 @@
+"""Labels drawn onto pictures, for people: masks, boxes, front and horizon."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import components, files, truth
+from .files import Masks
+from .truth import Annotation, Box, Truth
+
+if TYPE_CHECKING:
+    from PIL.ImageDraw import ImageDraw
+
+Picture = NDArray[np.uint8]
+
+_COLOURS = {truth.FIRE: (255, 208, 0), truth.SMOKE: (0, 200, 255)}
+_FRONT, _HORIZON = (255, 64, 160), (96, 255, 96)
+_FILL = 0.25  # weight of the colour within a mask
+_TEXT = 11  # pixels, height of letters in a picture of 640 columns
+_KILOMETRE = 1000.0
+
+
+def draw_sample(folder: Path, index: int, kind: str = "images") -> Picture:
+    """Draw the labels of a sample of a data set.
+
+    Parameters
+    ----------
+    kind
+        Picture below the labels: "images", "clean", "twin" or "palette".
+
+    Raises
+    ------
+    InputError
+        A file is missing or damaged.
+    """
+    return draw(files.read(folder, kind, index), truth.read(folder, index), files.read_masks(folder, index))
+
+
+def draw(picture: Picture, labelled: Truth, masks: Masks) -> Picture:
+    """Draw labels onto a picture (h, w, 3): masks in colour, boxes, amodal boxes of flames dashed, lines."""
+    from PIL import Image, ImageDraw
+
+    shown = picture.copy()
+    for category, layer in ((truth.SMOKE, masks.smoke), (truth.FIRE, masks.fire)):
+        _tint(shown, layer, _COLOURS[category])
+    image = Image.fromarray(shown)
+    pen = ImageDraw.Draw(image)
+    for line in labelled.horizon:
+        pen.line(line, fill=_HORIZON)
+    for line in labelled.front:
+        pen.line(line, fill=_FRONT)
+    for each in labelled.annotations:
+        _draw_annotation(pen, each, *picture.shape[:2])
+    return np.array(image)
+
+
+def caption(annotation: Annotation) -> str:
+    """Describe an annotation in a few words: ``smoke 2, 4.2 km, top 610 m``."""
+    words = [f"{_name(annotation)} {annotation.id}"]
+    if annotation.distance_m is not None:
+        far = annotation.distance_m >= _KILOMETRE
+        size, unit = (annotation.distance_m / _KILOMETRE, ".1f") if far else (annotation.distance_m, ".0f")
+        words.append(f"{size:{unit}} {'km' if far else 'm'}")
+    if annotation.top_above_ground_m is not None:
+        words.append(f"top {annotation.top_above_ground_m:.0f} m")
+    if annotation.visible_fraction < 1.0:
+        words.append(f"{annotation.visible_fraction:.0%} visible")
+    return ", ".join(words)
+
+
+def _name(annotation: Annotation) -> str:
+    return next(each.name for each in truth.CATEGORIES if each.id == annotation.category)
+
+
+def _tint(picture: Picture, layer: NDArray[np.uint8], colour: tuple[int, int, int]) -> None:
+    """Tint the inside of masks (h, w) of several ids, and draw their outlines."""
+    inside = layer > 0
+    picture[inside] = np.rint(picture[inside] * (1.0 - _FILL) + np.array(colour) * _FILL)
+    outline = inside & components.dilate(~inside, 1)
+    for axis in (0, 1):
+        for shift in (-1, 1):
+            other = np.roll(layer, shift, axis)
+            outline |= inside & (other > 0) & (other != layer)
+    picture[outline] = colour
+
+
+def _draw_annotation(pen: ImageDraw, each: Annotation, height: int, width: int) -> None:
+    """Draw the boxes of an annotation, and its caption: of smoke above the box, of fire below it."""
+    from PIL import ImageFont
+
+    colour = _COLOURS[each.category]
+    _rectangle(pen, each.box, colour)
+    if each.amodal_box != each.box:
+        _dashed(pen, each.amodal_box, colour)
+    size = max(_TEXT * width // 640, 8)
+    font, words = ImageFont.load_default(size), caption(each)
+    long = pen.textlength(words, font=font)
+    x, top, _, bottom = each.box
+    y = top - size - 3 if each.category == truth.SMOKE else bottom
+    x, y = max(min(x, width - long - 4), 0.0), min(max(y, 0.0), height - size - 3)
+    pen.rectangle((x, y, x + long + 3, y + size + 2), fill=(0, 0, 0))
+    pen.text((x + 2, y), words, fill=colour, font=font)
+
+
+def _rectangle(pen: ImageDraw, box: Box, colour: tuple[int, int, int]) -> None:
+    """Draw the outermost pixels of a box."""
+    x0, y0, x1, y1 = box
+    pen.rectangle((x0, y0, x1 - 1, y1 - 1), outline=colour)
+
+
+def _dashed(pen: ImageDraw, box: Box, colour: tuple[int, int, int]) -> None:
+    """Draw a box with dashes."""
+    x0, y0, x1, y1 = (box[0], box[1], box[2] - 1, box[3] - 1)
+    for x in np.arange(x0, x1, 6.0):
+        for y in (y0, y1):
+            pen.line((x, y, min(x + 2, x1), y), fill=colour)
+    for y in np.arange(y0, y1, 6.0):
+        for x in (x0, x1):
+            pen.line((x, y, x, min(y + 2, y1)), fill=colour)
