@@ -25,7 +25,7 @@ COLUMNS = {
     "fires": ("Integer", "number of labelled groups of flames"),
     "smokes": ("Integer", "number of labelled plumes"),
     "below_size": ("Integer", "number of instances below the smallest size"),
-    "nearest_m": ("Float", "distance of the nearest labelled instance, m; empty without one"),
+    "distance_m": ("Float", "median distance of the nearest labelled instance, m; empty without one"),
 }
 """Croissant data type (https://schema.org) and content of each column."""
 
@@ -48,7 +48,7 @@ def kind(truth: Truth) -> str:
 
 def _row(truth: Truth) -> dict[str, object]:
     categories = [each.category for each in truth.annotations]
-    distances = [each.nearest_m or each.distance_m for each in truth.annotations]
+    distances = [each.distance_m for each in truth.annotations]
     return {
         "index": truth.index,
         "split": truth.split or common.UNSPLIT,
@@ -60,5 +60,5 @@ def _row(truth: Truth) -> dict[str, object]:
         "fires": categories.count(_FIRE),
         "smokes": categories.count(_SMOKE),
         "below_size": len(truth.below_size),
-        "nearest_m": min((each for each in distances if each is not None), default=None),
+        "distance_m": min((each for each in distances if each is not None), default=None),
     }

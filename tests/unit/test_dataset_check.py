@@ -6,10 +6,12 @@ from dataclasses import replace
 
 import labelled
 import numpy as np
+import plain_samples
 import pytest
-from firetwin.dataset import about, check, files, finish, sums, truth, twins
+from firetwin.dataset import about, check, files, finish, formats, labels, sensor, sums, truth, twins
 from firetwin.errors import InputError
 from firetwin.progress import Reporter
+from firetwin.shot.passes import masks
 from PIL import Image
 
 COUNT = 9
@@ -249,3 +251,35 @@ def test_many_faults_of_a_kind_end_with_their_number(folder):
 def test_a_folder_without_samples_is_explained(tmp_path):
     with pytest.raises(InputError, match="has no samples"):
         list(check.check(tmp_path))
+
+
+def test_samples_that_the_labels_and_the_sensors_wrote_have_no_faults(tmp_path):
+    """Smoke of all opacities in front of a fire, and a negative."""
+    camera = plain_samples.looking(-3.0, size=(160, 120))
+    empty = plain_samples.plane(camera)
+    opacity = np.zeros((120, 160), np.float32)
+    opacity[10:90, 40:120] = np.linspace(0.0, 1.0, 80)
+    burns = np.zeros((120, 160), bool)
+    burns[70:100, 60:110] = True
+    surface = np.where(burns, masks.FIRE, empty.surface).astype(np.uint8)
+    light = burns[..., None].repeat(3, -1).astype(np.float32)
+    smoky = replace(
+        empty,
+        rgb=(empty.twin * (1.0 - opacity[..., None]) + 0.9 * opacity[..., None]).astype(np.float32),
+        clear=1.0 - opacity,
+        smoke_range=np.where(opacity > 0.0, 900.0, np.inf).astype(np.float32),
+        surface=surface,
+        classes=np.where(opacity > 0.5, masks.SMOKE, surface).astype(np.uint8),
+        twin_fire=light,
+        fire=light * (1.0 - opacity[..., None]),
+    )
+    seeds = {"noise": 1, "thermal noise": 2}
+    for index, rendered in enumerate((smoky, empty), 1):
+        made, drawn = labels.label(rendered, plain_samples.flat_place(), index)
+        sensed = sensor.apply(rendered, sensor.SensorSettings(), seeds)
+        files.write(tmp_path, replace(made, groups={"run": "king"}), drawn, rendered, sensed)
+    names = [name for name in formats.FORMATS if name != "parquet"]
+    finish.write(tmp_path, names)
+    samples = finish.read_samples(tmp_path)
+    assert [len(sample.annotations) for sample in samples] == [2, 0]
+    assert not faults(tmp_path)

@@ -56,8 +56,8 @@ def test_the_table_has_a_row_for_each_sample(made):
     assert [int(row["index"]) for row in rows] == [each.index for each in samples]
     assert [row["smokes"] for row in rows] == ["1", "1", "0"] * 3
     assert rows[2]["kind"] == "before_ignition"
-    assert rows[2]["nearest_m"] == ""
-    assert rows[0]["nearest_m"] == "1234.5"
+    assert rows[2]["distance_m"] == ""
+    assert rows[0]["distance_m"] == "1234.5"
 
 
 def test_hashes_cover_all_files(made):
