@@ -1,34 +1,31 @@
 """Section of a forecast of many members: when each place may burn, map of outlines, and burned area.
 
-Counts of members replace percentages up to 50 members, and "not within" counts as an answer.
+Counts of members replace percentages up to 50 members, and "not by the end" counts as an answer.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from datetime import datetime, timedelta
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import input_error
 from ..html_text import quote
 from ..run import times
-from ..run.arrival_grid import ArrivalGrid
-from ..run.ensemble import choice, ensemble, statistics
+from ..run.ensemble import choice, groups, place_arrivals, statistics
 from ..run.ensemble.ensemble import Ensemble
-from ..run.ensemble.manifest import KINDS
-from . import forecast_chart, units
+from ..run.ensemble.place_arrivals import SHARES, PlaceArrivals
+from . import forecast_chart, sheet_options, units
 
 if TYPE_CHECKING:
     from .briefing import Briefing, Point
 
-PERCENT_FROM = 51  # members from which shares are given in percent
-SHARES = 0.1, 0.5, 0.9
 _TIMES = 60  # of the chart of burned area
+_ROWS = 6  # of the table of burned area, in addition to the issue time
 
 
 @dataclass(frozen=True)
@@ -37,27 +34,29 @@ class Forecast:
 
     Attributes
     ----------
-    arrival
-        (m, n) s since the issue time of each counted member at each point; inf: not until the end; NaN: not
-        simulated.
+    arrivals
+        Arrivals of the counted members, which reach the end of the forecast, at the points.
     names
-        (m,) names of the counted members: those that reach the end of the forecast.
+        (m,) names of the counted members.
     areas
         (m, nt) burned areas, m2, at the times of `moments` (nt,), s.
     typical, outlier
         Indices of the deepest and the least deep member among the counted.
     depth
         (m,) epsilon inclusion depths at the end of the forecast.
+    second
+        (m,) True for the second of two groups of members with other burned areas; None: one group.
     """
 
     ensemble: Ensemble
-    arrival: NDArray[np.float64]
+    arrivals: PlaceArrivals
     names: list[str]
     moments: NDArray[np.float64]
     areas: NDArray[np.float64]
     typical: int
     outlier: int
     depth: NDArray[np.float64]
+    second: NDArray[np.bool_] | None
 
     @property
     def count(self) -> int:
@@ -78,22 +77,17 @@ def gather(folder: Path, latitude: Sequence[float], longitude: Sequence[float]) 
     InputError
         It is damaged, or not a forecast of one fire.
     """
-    found = ensemble.open(folder)
-    if found.manifest.kind != "forecast":
-        kind = KINDS[found.manifest.kind]
-        raise input_error(folder, f"holds {kind}; the page needs the kind forecast")
-    grid = ArrivalGrid(found.latitude, found.longitude, np.empty(found.shape[1:]))
-    counted = np.flatnonzero(found.counted(found.horizon))
-    rows, columns = grid.cells_at(np.asarray(latitude, np.float64), np.asarray(longitude, np.float64))
-    arrival = found.at(np.maximum(rows, 0), np.maximum(columns, 0))[counted].astype(np.float64)
-    arrival[:, (rows < 0) | (columns < 0)] = np.nan
+    found = place_arrivals.open_forecast(folder, "the page")
+    arrivals = place_arrivals.sample(found, latitude, longitude)
     moments = np.linspace(0.0, found.horizon, _TIMES)
-    chosen = choice.choose(found)
+    chosen, counted = choice.choose(found), arrivals.members
     order = counted.tolist()
+    likeness = choice.jaccard(statistics.overlaps(found, found.horizon))[np.ix_(counted, counted)]
     return Forecast(
-        found, arrival, [found.members[index].name for index in order], moments,
+        found, arrivals, [found.members[index].name for index in order], moments,
         statistics.burned_areas(found, moments)[counted],
         order.index(chosen.typical), order.index(chosen.outlier), chosen.depth[counted],
+        groups.split(1.0 - likeness),
     )  # fmt: skip
 
 
@@ -109,11 +103,29 @@ def section(briefing: Briefing) -> str:
 
 
 def _section(briefing: Briefing, found: Forecast) -> Iterator[str]:
+    yield from _head(briefing, found)
+    yield from _outcomes(briefing, found)
+    yield from _places(briefing, found)
+    yield from _map(briefing, found)
+    yield from _growth(briefing, found)
+    yield (
+        "<p class='soft' id='typical-note'>* The typical member is the deepest by epsilon inclusion depth "
+        "(Chaves-de-Plaza et al., 2024): its final burned area lies inside that of many others, and many "
+        "others lie inside it. The outlier is the least deep one.</p>"
+    )
+
+
+def _head(briefing: Briefing, found: Forecast) -> Iterator[str]:
+    """Name issue time, age, members and inputs."""
     told, zone = found.ensemble.manifest, briefing.zone
     issued = times.text(found.ensemble.issued, zone)
     last = times.text(found.ensemble.valid(found.ensemble.horizon), zone)
-    counts = f"{found.count} of {found.total} members"
-    yield f'<p class="issued">Issued {quote(issued)}, valid until {quote(last)}, {counts}</p>'
+    prepared = briefing.sheet.prepared or datetime.now(UTC)
+    age = sheet_options.age((prepared - found.ensemble.issued).total_seconds())
+    yield (
+        f'<p class="issued">Issued {quote(issued)}, valid until {quote(last)}<br>'
+        f"{age} old when this page was made; {found.count} of {found.total} members</p>"
+    )
     if told.synthetic and not briefing.run.synthetic:
         yield '<p class="warn"><b>These members are synthetic</b>, not the output of a fire model.</p>'
     differ, common = told.perturbed or "not given", told.not_perturbed or "not given"
@@ -122,87 +134,158 @@ def _section(briefing: Briefing, found: Forecast) -> Iterator[str]:
         f"Members differ in: {quote(differ)}. Common to all: {quote(common)}. "
         "An error in a common input is in all members.</p>"
     )
+    if note := found.arrivals.weights_note():
+        yield f"<p>{note}</p>"
     for each in found.ensemble.left_out:
         yield f"<p class='soft'>Left out: member {quote(each.name)}: {quote(each.reason)}.</p>"
-    yield from _places(briefing, found)
-    yield forecast_chart.outlines(found, reached(briefing, found), "SYNTHETIC" if told.synthetic else "")
+
+
+def _outcomes(briefing: Briefing, found: Forecast) -> Iterator[str]:
+    """Give the range of burned area, and two outcomes if members are in two groups."""
+    unit, end = units.AREA[briefing.units], found.arrivals.end(briefing.zone)
+    area = found.areas[:, -1]
+    low, middle, high = (unit.format(float(np.quantile(area, q))) for q in (0.0, 0.5, 1.0))
     yield (
-        "<p class='soft'>Burned area of each member at the end of the forecast. Thick: member "
-        f"{quote(found.names[found.typical])}, the most typical of the {found.count} (deepest by epsilon "
-        "inclusion depth). Blue: burned by some of the more typical half of the members; dark blue: by all. "
-        "Grey: burned before the issue time. Dashed: "
-        f"member {quote(found.names[found.outlier])}, the least typical.</p>"
+        f"<p><b>Burned by {quote(end)}:</b> {low} to {high} {unit.name}; half of the members burn less than "
+        f"{middle}.</p>"
+    )
+    if found.second is None:
+        return
+    parts = [area[found.second == group] for group in (False, True)]
+    parts.sort(key=lambda part: float(np.median(part)))
+    words = [
+        f"{len(part)} of {found.count} members burn {unit.format(part.min())} to {unit.format(part.max())} "
+        f"{unit.name}"
+        for part in parts
+    ]
+    yield (
+        f'<p class="warn"><b>Two outcomes:</b> {words[0]}, and {words[1]}. Members of a group burn similar '
+        "ground. The typical member shows one of the two, and the median may be in neither.</p>"
+    )
+
+
+def _map(briefing: Briefing, found: Forecast) -> Iterator[str]:
+    """Draw the outlines of the members, with a table of them."""
+    mark = "SYNTHETIC" if found.ensemble.manifest.synthetic else ""
+    typical, outlier = (quote(found.names[index]) for index in (found.typical, found.outlier))
+    yield f"<h3>Burned area of each member on {quote(found.arrivals.end(briefing.zone))}</h3>"
+    yield (
+        '<div class="key"><span><i class="line thick"></i>member '
+        f'{typical}, the typical one<a href="#typical-note">*</a></span><span><i class="line dashed"></i>'
+        f'member {outlier}, the outlier</span><span><i class="line"></i>other members</span>'
+        '<span><i class="band both"></i>burned by all of the more typical half of the members</span>'
+        '<span><i class="band"></i>by some of them</span>'
+        '<span><i class="before"></i>burned before the issue time</span></div>'
+    )
+    yield forecast_chart.outlines(found, reached(briefing, found), mark, briefing.units)
+    yield (
+        "<p class='soft'>North is at the top. Ground outside of all outlines may burn later, or in a fire "
+        "that differs from all members.</p>"
     )
     unit = units.AREA[briefing.units]
-    yield forecast_chart.fan(found, zone, unit)
-    low, middle, high = (unit.format(float(np.quantile(found.areas[:, -1], q))) for q in (0.0, 0.5, 1.0))
+    rows = [
+        (name, unit.format(float(found.areas[index, -1])), ", ".join(_roles(found, index)))
+        for index, name in enumerate(found.names)
+    ]
+    yield _table("Members as a table", ("member", f"burned area at the end, {unit.name}", "role"), rows)
+
+
+def _roles(found: Forecast, index: int) -> list[str]:
+    area = found.areas[:, -1]
+    each = found.typical, found.outlier, int(area.argmin()), int(area.argmax())
+    names = "typical", "outlier", "smallest", "largest"
+    return [role for role, member in zip(names, each, strict=True) if member == index]
+
+
+def _growth(briefing: Briefing, found: Forecast) -> Iterator[str]:
+    """Draw the burned area by time, with a table."""
+    unit = units.AREA[briefing.units]
+    yield "<h3>Burned area by time</h3>"
     yield (
-        f"<p class='soft'>Burned area by time. At the end: smallest {low}, median {middle}, largest {high} "
-        f"{unit.name}. Shaded: all members, and the middle half. Blue: median. Black: member "
-        f"{quote(found.names[found.typical])}.</p>"
+        '<div class="key"><span><i class="line blue"></i>median</span><span><i class="line thick"></i>member '
+        f'{quote(found.names[found.typical])}, the typical one</span><span><i class="band both"></i>middle '
+        'half of the members</span><span><i class="band"></i>all members</span></div>'
+    )
+    yield forecast_chart.fan(found, briefing.zone, unit)
+    picks = np.linspace(0, len(found.moments) - 1, _ROWS + 1).round().astype(int)
+    rows = [
+        (
+            found.arrivals.clock(float(found.moments[at]), briefing.zone),
+            *(
+                unit.format(float(value))
+                for value in np.quantile(found.areas[:, at], forecast_chart.QUARTERS)
+            ),
+        )
+        for at in picks
+    ]
+    heads = "time", "smallest", "quarter", "median", "three quarters", "largest"
+    yield _table(f"Burned area as a table, {unit.name}", heads, rows)
+
+
+def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Build a folded table: the text alternative of a drawing."""
+    top = "".join(f'<th scope="col">{quote(head)}</th>' for head in heads)
+    body = "".join(f"<tr>{''.join(f'<td>{quote(cell)}</td>' for cell in row)}</tr>" for row in rows)
+    return (
+        f'<details class="as-table"><summary>{quote(title)}</summary><div class="wide"><table>'
+        f"<thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div></details>"
     )
 
 
 def reached(briefing: Briefing, found: Forecast) -> list[Point]:
     """List the points that the fire reaches in any member."""
-    some = np.isfinite(found.arrival).any(0)
-    return [point for point, here in zip(briefing.points, some, strict=True) if here]
+    return [point for point, here in zip(briefing.points, found.arrivals.reached, strict=True) if here]
 
 
 def _places(briefing: Briefing, found: Forecast) -> Iterator[str]:
     """Build a table of places that any member burns, and name the others."""
-    hours = f"{found.ensemble.horizon / 3600.0:.3g} h"
+    arrivals, zone = found.arrivals, briefing.zone
+    end = quote(arrivals.end(zone))
     rows, never = [], []
     for index, point in enumerate(briefing.points):
-        arrival = found.arrival[:, index]
-        if np.isfinite(arrival).any():
-            rows.append(_row(point, arrival, found, briefing.zone))
-        elif not np.isnan(arrival).all():
+        if arrivals.reached[index]:
+            rows.append(_row(point, index, arrivals, zone))
+        elif arrivals.simulated[index]:
             never.append(quote(point.name))
     if rows:
-        heads = [_share(share, found.count) for share in SHARES]
+        heads = [arrivals.share_text(share) for share in SHARES]
         titles = "".join(f'<th scope="col">{quote(head)}<br>burn it by</th>' for head in heads)
-        span = [_clock(found, time, briefing.zone) for time in (0.0, found.ensemble.horizon)]
+        span = f"{quote(arrivals.clock(0.0, zone))} to {end}"
         yield (
-            '<div class="wide"><table><thead><tr><th scope="col" class="text">place</th>'
-            f'{titles}<th scope="col">not within<br>{hours}</th><th scope="col" class="text">each member,'
-            f"<br>{quote(span[0])} to {quote(span[1])}</th></tr></thead><tbody>{''.join(rows)}</tbody>"
-            "</table></div>"
+            '<div class="wide"><table class="arrivals"><thead><tr><th scope="col" class="text">place</th>'
+            f'{titles}<th scope="col">do not reach it by<br>{end}, when the<br>forecast ends</th>'
+            f'<th scope="col" class="text">each '
+            f"member,<br>{span}</th></tr></thead><tbody>{''.join(rows)}</tbody></table></div>"
         )
     if never:
-        yield f"<p>Not within {hours} in any of {found.count} members: {', '.join(never)}.</p>"
+        yield (
+            f"<p>No member reaches these places by {end}, when the forecast ends: {', '.join(never)}. They "
+            "may burn later.</p>"
+        )
 
 
-def _row(point: Point, arrival: NDArray[np.float64], found: Forecast, zone: str) -> str:
-    known = arrival[~np.isnan(arrival)]
-    cells = "".join(f"<td>{quote(_by(known, share, found, zone))}</td>" for share in SHARES)
+def _row(point: Point, index: int, arrivals: PlaceArrivals, zone: str) -> str:
+    known = arrivals.known(index)
+    cells = "".join(f"<td>{quote(arrivals.by_text(index, share, zone))}</td>" for share in SHARES)
     never = int(np.isinf(known).sum())
-    missing = f", {len(arrival) - len(known)} not simulated" if len(known) < len(arrival) else ""
+    missing = f", {arrivals.count - len(known)} not simulated" if len(known) < arrivals.count else ""
+    dots = forecast_chart.dots(known, arrivals, point.name, zone)
     return (
         f'<tr><td class="text">{quote(point.name)}</td>{cells}'
         f"<td>{never} of {len(known)}{missing}</td>"
-        f'<td class="text">{forecast_chart.dots(known, found.ensemble.horizon, point.name)}</td></tr>\n'
+        f'<td class="text">{dots}{_two(known, arrivals, zone)}</td></tr>\n'
     )
 
 
-def _by(known: NDArray[np.float64], share: float, found: Forecast, zone: str) -> str:
-    """Format the time by which a share of the members has burned a place (see `statistics.quantiles`)."""
-    ordered = np.sort(known)
-    time = ordered[statistics.members_of_share(share, len(ordered)) - 1]
-    if np.isinf(time):
-        return "not within"
-    return "burned before" if time <= 0.0 else _clock(found, float(time), zone)
-
-
-def _share(share: float, count: int) -> str:
-    """Name a share of the members: ``2 of 20``, or percent of many."""
-    if count >= PERCENT_FROM:
-        return f"{share:.0%} of members"
-    return f"{statistics.members_of_share(share, count)} of {count}"
-
-
-def _clock(found: Forecast, time: float, zone: str) -> str:
-    """Format a time since the issue time without its year: ``17 Sep 16:20``."""
-    moment = datetime.fromisoformat(found.ensemble.issued.isoformat()) + timedelta(seconds=time)
-    day, month, _, clock, _ = times.text(moment, zone).split(" ", 4)
-    return f"{day} {month} {clock}"
+def _two(known: NDArray[np.float64], arrivals: PlaceArrivals, zone: str) -> str:
+    """Name two groups of arrival times, as their median may be in neither."""
+    times = known[np.isfinite(known)]
+    second = groups.split_values(times)
+    if second is None:
+        return ""
+    parts = [times[~second], times[second]]
+    words = [
+        f"{len(part)} from {arrivals.clock(float(part[0]), zone)} to {arrivals.clock(float(part[-1]), zone)}"
+        for part in parts
+    ]
+    return f"<small>two outcomes: {quote(words[0])}; {quote(words[1])}</small>"

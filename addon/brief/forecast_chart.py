@@ -13,39 +13,48 @@ from ..html_text import quote
 from ..run import areas, fronts
 from ..run.ensemble import places
 from ..run.ensemble.ensemble import Ensemble
+from ..run.ensemble.place_arrivals import PlaceArrivals
 from ..run.score.measure import Measure
-from . import curve
+from . import curve, units
+from .sheet_options import Units
 
 if TYPE_CHECKING:
     from .briefing import Point
     from .forecast import Forecast
 
-_DOTS = 260, 26  # width and height
-_NEVER = 60  # width for the number of members that do not arrive
+_DOTS = 276, 26  # width and height
+_NEVER = 76  # width for the number of members that do not arrive
 _MAP = 900.0  # width
+QUARTERS = 0.0, 0.25, 0.5, 0.75, 1.0
+"""Shares of the members below the lines of the chart of burned area."""
 
 
-def dots(arrival: NDArray[np.float64], horizon: float, name: str) -> str:
+def dots(arrival: NDArray[np.float64], arrivals: PlaceArrivals, name: str, zone: str) -> str:
     """Draw a dot for each member (m,) at its arrival time (s), and the number of those that do not arrive."""
     width, height = _DOTS
-    span = width - _NEVER
+    span, horizon = width - _NEVER, arrivals.ensemble.horizon
     shapes = [f'<line class="tick" x1="0" x2="{span}" y1="{height - 3}" y2="{height - 3}"/>']
+    shapes += [
+        f'<line class="tick" x1="{x}" x2="{x}" y1="{height - 7}" y2="{height - 3}"/>'
+        for x in (0.5, span - 0.5)
+    ]
     levels: dict[int, int] = {}
-    for time in np.sort(arrival):
-        if np.isinf(time):
-            continue
+    when = np.sort(arrival[np.isfinite(arrival)])
+    for time in when:
         x = 4 + (span - 8) * min(max(float(time) / horizon, 0.0), 1.0)
         level = levels[int(x // 7)] = levels.get(int(x // 7), -1) + 1
         y = max(height - 8 - 5 * level, 4)
         shapes.append(f'<circle class="member" cx="{x:.1f}" cy="{y}" r="3"/>')
-    never = int(np.isinf(arrival).sum())
-    if never:
-        shapes.append(f'<text x="{width}" y="{height - 6}" text-anchor="end" class="end">+{never} not</text>')
-    label = f"{name}: {len(arrival) - never} of {len(arrival)} members arrive"
+    if never := len(arrival) - len(when):
+        shapes.append(
+            f'<text x="{width}" y="{height - 6}" text-anchor="end" class="end">{never} not yet</text>'
+        )
+    listed = ", ".join(arrivals.clock(float(time), zone) for time in when)
+    label = f"{name}: {len(when)} of {len(arrival)} members arrive, on {listed}"
     return _svg(width, height, label, shapes, "dots")
 
 
-def outlines(found: Forecast, points: Sequence[Point], mark: str) -> str:
+def outlines(found: Forecast, points: Sequence[Point], mark: str, usual: Units) -> str:
     """Draw the members' burned areas at the end of the forecast, points with their names, and a mark."""
     whole = found.ensemble
     counted = np.flatnonzero(whole.counted(whole.horizon))
@@ -72,7 +81,12 @@ def outlines(found: Forecast, points: Sequence[Point], mark: str) -> str:
     if mark:
         middle = f'x="{_MAP / 2:g}" y="{place.height - 20:.0f}" text-anchor="middle"'
         shapes.append(f'<text class="mark" {middle}>{quote(mark)}</text>')
-    label = f"Outlines of {found.count} members at the end of the forecast, north at the top"
+    areas = [float(whole.areas[part].sum()) for part in (burned.all(0), burned.any(0))]
+    both, some = (units.area(area, usual) for area in areas)
+    label = (
+        f"Outlines of {found.count} members at the end of the forecast, north at the top. All of them burn "
+        f"{both}, and at least one of them {some}. The table below lists the members."
+    )
     return f"<figure>{_svg(round(_MAP), round(place.height), label, shapes, 'curve outlines')}</figure>"
 
 
@@ -135,7 +149,7 @@ def fan(found: Forecast, zone: str, unit: Measure) -> str:
     issued = found.ensemble.issued
     when = [issued + timedelta(seconds=float(moment)) for moment in found.moments]
     place = curve.Axes(when[0], when[-1], max(float(found.areas.max()) * 1.06, 1.0))
-    low, quarter, middle, upper, high = np.quantile(found.areas, [0.0, 0.25, 0.5, 0.75, 1.0], axis=0)
+    low, quarter, middle, upper, high = np.quantile(found.areas, QUARTERS, axis=0)
 
     def trace(values: NDArray[np.float64]) -> list[str]:
         return [f"{place.x(at)},{place.y(float(value))}" for at, value in zip(when, values, strict=True)]
@@ -154,7 +168,11 @@ def fan(found: Forecast, zone: str, unit: Measure) -> str:
         f'<polyline class="median" points="{line(middle)}"/>',
         f'<polyline class="typical" points="{line(found.areas[found.typical])}"/>',
     ]
-    label = "Burned area of the members by time; the sentence below has the numbers"
+    label = (
+        "Burned area of the members by time. At the end, the smallest, the median and the largest have "
+        f"{', '.join(unit.format(float(each[-1])) for each in (low, middle, high))} {unit.name}. "
+        "The table below has more times."
+    )
     return f"<figure>{_svg(curve.WIDTH, curve.HEIGHT, label, shapes, 'curve')}</figure>"
 
 

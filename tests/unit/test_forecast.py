@@ -1,6 +1,6 @@
 """The section of a forecast: times by counts of members, places without fire, drawings, and escaped names."""
 
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from xml.etree import ElementTree
 
 import numpy as np
@@ -8,8 +8,9 @@ import pytest
 import small_stations
 import whole_run
 from firetwin.brief import briefing, forecast, forecast_chart, page
+from firetwin.brief.sheet_options import SheetOptions
 from firetwin.errors import InputError
-from firetwin.run.ensemble import write
+from firetwin.run.ensemble import ensemble, place_arrivals, write
 from firetwin.run.ensemble.manifest import Manifest, Member
 from page_parts import PageParts
 
@@ -33,7 +34,8 @@ def stations(tmp_path_factory):
 
 
 def section(run, stations, made):
-    return forecast.section(briefing.gather(briefing.Request(run, stations, ensemble=made)))
+    sheet = SheetOptions(prepared=ISSUED + timedelta(hours=2))
+    return forecast.section(briefing.gather(briefing.Request(run, stations, ensemble=made, sheet=sheet)))
 
 
 def members(folder, run, arrivals, **head):
@@ -48,8 +50,8 @@ def members(folder, run, arrivals, **head):
 
 def rows(text: str) -> list[list[str]]:
     """Return the cells of the table's body as texts."""
-    start = text.index("<tbody>")
-    body = ElementTree.fromstring(text[start : text.index("</tbody>") + 8].replace("<br>", ""))
+    start = text.index("<tbody>", text.index('class="arrivals"'))
+    body = ElementTree.fromstring(text[start : text.index("</tbody>", start) + 8].replace("<br>", ""))
     return [["".join(cell.itertext()) for cell in row] for row in body]
 
 
@@ -58,10 +60,11 @@ def test_times_are_counts_of_members(folder, stations, tmp_path):
     arrivals = [-60.0] * 2 + [2 * HOURS] * 8 + [5 * HOURS] * 3 + [np.inf] * 7
     made = members(tmp_path, folder, arrivals)
     text = section(folder, stations, made)
-    assert "Issued 16 Sep 2014 20:00 -08, valid until 17 Sep 2014 02:00 -08, 20 of 20 members" in text
+    assert "Issued 16 Sep 2014 20:00 -08, valid until 17 Sep 2014 02:00 -08<br>2.0 h old" in text
+    assert "20 of 20 members" in text
     assert [cells[0] for cells in rows(text)] == ["Alpha", "Bravo"]
     for cells in rows(text):
-        assert cells[1:5] == ["burned before", "16 Sep 22:00", "not within", "7 of 20"]
+        assert cells[1:5] == ["burned before", "16 Sep 22:00", "later or never", "7 of 20"]
     assert "2 of 20<br>burn it by" in text
 
 
@@ -79,8 +82,11 @@ def test_places_without_fire_are_named_once(folder, stations, tmp_path):
     head = Manifest("Few", "", ISSUED, 6 * HOURS, ())
     write.write(tmp_path / "e", head, *axes, [(Member("a"), here), (Member("b"), here)])
     text = section(folder, stations, tmp_path / "e")
-    assert "<tbody>" not in text
-    assert text.count("Not within 6 h in any of 2 members: Alpha, Bravo.") == 1
+    assert 'class="arrivals"' not in text
+    said = (
+        "No member reaches these places by 17 Sep 02:00, when the forecast ends: Alpha, Bravo. They may burn"
+    )
+    assert text.count(said) == 1
 
 
 def test_the_page_escapes_the_names_of_an_ensemble(folder, tmp_path):
@@ -98,10 +104,42 @@ def test_other_kinds_are_refused(folder, tmp_path):
         briefing.gather(briefing.Request(folder, ensemble=made))
 
 
-def test_dots_count_the_members_that_do_not_arrive():
-    drawn = ElementTree.fromstring(forecast_chart.dots(np.array([0.0, 60.0, np.inf, np.inf]), 120.0, "A & B"))
+def test_two_groups_of_members_are_two_outcomes(folder, stations, tmp_path):
+    """Of 12 members, 5 burn all within the first hour and 7 a corner; the places burn in the 5 alone."""
+    axes = [np.load(folder / f"fuel_{name}.npy") for name in ("latitude", "longitude")]
+    each = []
+    for i in range(12):
+        burned = np.full((axes[0].size, axes[1].size), HOURS + 60.0 * i, np.float32)
+        if i >= 5:
+            burned[5:] = np.inf
+        each.append((Member(f"{i:02}"), burned))
+    write.write(tmp_path / "e", Manifest("Two", "", ISSUED, 6 * HOURS, ()), *axes, each)
+    text = section(folder, stations, tmp_path / "e")
+    assert "<b>Two outcomes:</b> 7 of 12 members burn" in text
+    assert "acres, and 5 of 12 members burn" in text
+    one = section(folder, stations, members(tmp_path, folder, [HOURS] * 12))
+    assert "Two outcomes" not in one
+    times = [HOURS + 60.0 * i for i in range(6)] + [5 * HOURS + 60.0 * i for i in range(6)]
+    late = section(folder, stations, members(tmp_path / "late", folder, times))
+    said = "two outcomes: 6 from 16 Sep 21:00 to 16 Sep 21:05; 6 from 17 Sep 01:00 to 17 Sep 01:05"
+    assert late.count(said) == 2
+
+
+def test_drawings_have_tables_and_descriptions(folder, stations, tmp_path):
+    text = section(folder, stations, members(tmp_path, folder, [HOURS] * 3 + [np.inf]))
+    assert text.count('<details class="as-table">') == 2
+    assert "at least one of them" in text
+    assert "the smallest, the median and the largest have 0, " in text
+    assert text.count("epsilon inclusion depth") == 1
+    assert "weights" not in text
+
+
+def test_dots_count_the_members_that_do_not_arrive(folder, tmp_path):
+    made = place_arrivals.sample(ensemble.open(members(tmp_path, folder, [60.0, np.inf])), [38.9], [-120.6])
+    times = np.array([0.0, 60.0, np.inf, np.inf])
+    drawn = ElementTree.fromstring(forecast_chart.dots(times, made, "A & B", "UTC"))
     circles = [each for each in drawn if each.tag == "circle"]
     assert len(circles) == 2
     assert float(circles[0].get("cx")) < float(circles[1].get("cx"))
-    assert [each.text for each in drawn if each.tag == "text"] == ["+2 not"]
-    assert drawn.get("aria-label") == "A & B: 2 of 4 members arrive"
+    assert [each.text for each in drawn if each.tag == "text"] == ["2 not yet"]
+    assert drawn.get("aria-label") == "A & B: 2 of 4 members arrive, on 17 Sep 04:00, 17 Sep 04:01"
