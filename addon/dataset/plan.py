@@ -51,8 +51,8 @@ class Plan:
     ----------
     path
         The plan's file.
-    title
-        Name of the data set.
+    title, license
+        Name of the data set, and SPDX identifier of its licence; "" if its owner has not chosen one.
     runs
         Runs that the samples show.
     count
@@ -84,6 +84,7 @@ class Plan:
     count: int = 100
     seed: int = 0
     title: str = "Firetwin samples"
+    license: str = ""
     resolution: tuple[int, int] = (640, 480)
     moments: int = 8
     sites: int = 6

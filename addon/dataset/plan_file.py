@@ -79,6 +79,7 @@ class _File:
     """Content of a plan, except the distributions."""
 
     title: str = key("Firetwin samples", "name of the data set")
+    license: str = key("", "SPDX identifier of the licence of the data set")
     count: int = key(100, "number of samples", at_least=1, at_most=_MOST)
     seed: int = key(0, "seed of all draws", at_least=0, at_most=2**63 - 1)
     resolution: tuple[int, int] = key(
@@ -138,7 +139,7 @@ def parse(text: str, path: Path) -> Plan:
     )
 
 
-_PLAIN = "title", "count", "seed", "resolution", "moments", "sites", "positives", "night", "split_by"
+_PLAIN = "title", "license", "count", "seed", "resolution", "moments", "sites", "positives", "night", "split_by"
 
 
 def _run(found: _Run) -> PlanRun:
@@ -165,8 +166,8 @@ def _faults(found: _File) -> Iterator[tuple[Where, str]]:
         elif run.run.is_dir() and ensemble.sniff(run.run):
             reason = f"runs.run: {run.run} is an ensemble, which has no heat; convert its members to runs"
             yield (*here, "run"), reason
-        elif reason := file_name(_name(run)):
-            yield (*here, "name" if run.name else "run"), f"runs.name {reason}; set another name"
+        elif fault := file_name(_name(run)):
+            yield (*here, "name" if run.name else "run"), f"runs.name {fault}; set another name"
     names = [_name(run) for run in found.runs]
     if (second := twice(names)) is not None:
         yield ("runs", second), f'two runs are called "{names[second]}"; give one another name'

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ..auto_framing.front import front_at, some
 from ..run import burning, readers
 from ..shot.settings import Settings, scene_file
-from ..shot.terrain import elevation
-from ..shot.terrain.terrain import NEVER, Terrain
+from ..shot.shot import Shot
+from ..shot.terrain.terrain import NEVER
 from .plan import PlanRun
 
 _POINTS = 160  # front points at most per time
@@ -45,8 +45,8 @@ class RunScene:
     ----------
     settings
         Settings of the run's scene file.
-    run
-        The run.
+    run, shot
+        The run, and a shot of it with the times and cameras of the scene file.
     ground
         Terrain without detail near cameras.
     """
@@ -54,9 +54,8 @@ class RunScene:
     def __init__(self, planned: PlanRun) -> None:
         self.settings = settings_of(planned)
         self.run: Run = readers.open(self.settings.run)
-        self._arrival = self.run.fuel_arrival_time()
-        relief = elevation.resolve(self.settings, self.run)
-        self.ground = Terrain(self.settings, self.run, self._arrival, relief)
+        self.shot = Shot(self.settings, self.run)
+        self._arrival, self.ground = self.shot.arrival, self.shot.bare_ground
 
     @cached_property
     def ignition(self) -> float:
@@ -108,7 +107,9 @@ class RunScene:
         canopy = self.ground.sample(self.ground.fields.canopy_fuel, position[0], position[1])
         return _TREE if float(canopy[0]) > _CANOPY else _OPEN
 
-    def visible(self, points: Array, position: Array, rotation: Array, half: tuple[float, float]) -> Array:
+    def visible(
+        self, points: Array, position: Array, rotation: Array, half: tuple[float, float]
+    ) -> NDArray[np.bool_]:
         """Return which points (n, 3) are in the picture and not hidden by terrain (n,).
 
         Parameters

@@ -1,0 +1,211 @@
+"""Production of a data set: missing samples, shared by several processes, each sample complete or absent.
+
+The work is divided by visits: samples that share a built scene (see `places`). A process holds the lease of
+the visit that it renders. A killed process loses the samples that it had not finished; its leases expire.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .. import leases
+from ..database import Database
+from ..errors import UsageError, writing
+from ..leases import Leases, new_owner
+from ..progress import MessageCallback, Progress, duration, no_message, silent
+from ..shot.schema import scene_text
+from ..shot.schema.frame_list import FrameList
+from . import about, files, imagery, places, record
+from .about import About
+from .distributions import VALUES
+from .draw import Draw
+from .draws import Drawer
+from .estimate import Estimate, estimate
+from .places import Visit
+from .plan import Plan
+from .run_scene import settings_of
+from .splits import Splits
+
+WORK = ".work"
+"""Folder of leases and of hashes of runs in a data set; it is not a part of the data set."""
+_POLL_INTERVAL = 1.0  # s between two polls of the leases of other processes
+SAMPLES = "samples"
+"""Name of the work that counts samples, for progress."""
+
+Maker = Callable[[Plan, Visit, Sequence[int], Path, Progress, MessageCallback], None]
+"""Renders, labels and writes some samples of a visit into a folder."""
+
+
+@dataclass(frozen=True)
+class Production:
+    """A data set to make.
+
+    Attributes
+    ----------
+    draws
+        All draws of the plan, by number.
+    wanted
+        Numbers of the requested samples.
+    """
+
+    plan: Plan
+    out: Path
+    draws: dict[int, Draw]
+    wanted: frozenset[int]
+    visits: list[Visit] = field(default_factory=list)
+
+    def missing(self, visit: Visit) -> list[int]:
+        """List the requested samples of a visit that are not finished."""
+        numbers = [each.index for each in visit.draws if each.index in self.wanted]
+        return [index for index in numbers if not files.is_complete(self.out, index)]
+
+    def unfinished(self) -> list[Visit]:
+        """List the visits with missing samples."""
+        return [visit for visit in self.visits if self.missing(visit)]
+
+    def estimate(self) -> Estimate:
+        """Estimate time and size of the missing samples."""
+        visits = self.unfinished()
+        missing = [index for visit in visits for index in self.missing(visit)]
+        return estimate(missing, len(visits), self.plan.resolution, self.out)
+
+
+def prepare(plan: Plan, out: Path, only: str = "", progress: Progress = silent) -> Production:
+    """Draw all samples of a plan.
+
+    Parameters
+    ----------
+    only
+        List of samples, such as "0137" or "1-20,137"; empty for all.
+
+    Raises
+    ------
+    UsageError
+        The list is invalid.
+    InputError
+        A run cannot be read, its imagery is refused, or a sample cannot be drawn.
+    """
+    try:
+        wanted = FrameList(only).frames(plan.count)
+    except ValueError:
+        raise UsageError(
+            f"--only: samples are numbered 1 to {plan.count}; write it like 137 or 1-20,137"
+        ) from None
+    for number, run in enumerate(plan.runs):
+        if reason := imagery.fault(run, settings_of(run)):
+            raise scene_text.error_at(plan.path, ("runs", number, "run"), f"runs.run: {reason}")
+    drawer, draws = Drawer(plan), dict[int, Draw]()
+    for index in range(1, plan.count + 1):
+        progress(index - 1, plan.count, "drawing samples")
+        draws[index] = drawer.draw(index)
+    progress(plan.count, plan.count, "drawing samples")
+    return Production(plan, out, draws, frozenset(wanted), places.visits(draws.values()))
+
+
+def run(
+    production: Production, make: Maker, progress: Progress = silent, tell: MessageCallback = no_message
+) -> None:
+    """Make the missing samples; several processes may do so at the same time.
+
+    Raises
+    ------
+    InputError
+        The folder has another data set, the disk is full, or a file cannot be written.
+    """
+    out = production.out
+    with writing(out):
+        out.mkdir(parents=True, exist_ok=True)
+    about.write(out, _about(production.plan))
+    record.write(out, record.describe(production.plan, out / WORK))
+    with _open_leases(out) as held:
+        _produce(production, held, make, progress, tell)
+
+
+def _produce(
+    production: Production, held: Leases, make: Maker, progress: Progress, tell: MessageCallback
+) -> None:
+    total, waiting = len(production.wanted), False
+    while unfinished := production.unfinished():
+        others = held.of_others()
+        free = (visit for visit in unfinished if _name(visit) not in others and held.take(_name(visit)))
+        visit = next(free, None)
+        if visit is None:
+            if not waiting:
+                limit = duration(leases.PATIENCE)
+                tell(f"waiting for samples of another process; taken over {limit} after its last heartbeat")
+            waiting = True
+            time.sleep(_POLL_INTERVAL)
+            continue
+        waiting = False
+        try:
+            if missing := production.missing(visit):
+                left = sum(len(production.missing(each)) for each in production.unfinished())
+                make(
+                    production.plan,
+                    visit,
+                    missing,
+                    production.out,
+                    _counted(progress, total - left, total),
+                    tell,
+                )
+                if still := production.missing(visit):
+                    raise RuntimeError(f"sample {still[0]} was not written")
+        finally:
+            held.release(_name(visit))
+    progress(total, total, SAMPLES)
+
+
+def _about(plan: Plan) -> About:
+    """Collect the facts about a data set."""
+    units = {name: value.unit for name, value in VALUES.items()}
+    return About(plan.title, plan.count, plan.seed, Splits(plan).by, plan.license, units)
+
+
+@contextlib.contextmanager
+def _open_leases(out: Path) -> Iterator[Leases]:
+    data = Database(out / WORK / "leases.sqlite", leases.TABLES, create=True)
+    with contextlib.closing(data), Leases(data, new_owner()) as held:
+        yield held
+
+
+@contextlib.contextmanager
+def alone(out: Path, name: str) -> Iterator[None]:
+    """Hold a lease of a data set; wait while another process holds it."""
+    with _open_leases(out) as held:
+        while not held.take(name):
+            held.of_others()
+            time.sleep(_POLL_INTERVAL)
+        try:
+            yield
+        finally:
+            held.release(name)
+
+
+def _counted(progress: Progress, before: int, total: int) -> Progress:
+    """Count the samples of a visit as samples of the data set; other work is shown as a note."""
+
+    def counted(done: int, of: int, what: str = "", note: str = "") -> None:
+        if what == SAMPLES:
+            progress(before + done, total, SAMPLES, note)
+        else:
+            progress(before, total, SAMPLES, f"{what} {100 * done // max(of, 1)} %" if what else note)
+
+    return counted
+
+
+def remove_parts(out: Path) -> int:
+    """Remove unfinished files of killed processes, after all samples are finished; returns their number."""
+    found = [path for folder in out.iterdir() if folder.is_dir() for path in folder.glob(".*.part*")]
+    for path in found:
+        if path.is_file():
+            with contextlib.suppress(OSError):
+                path.unlink()
+    return len(found)
+
+
+def _name(visit: Visit) -> str:
+    return f"visit {visit.draws[0].index:06d}"

@@ -1,0 +1,89 @@
+"""Record of a data set: the plan and the versions that made it, so that no folder mixes two of them."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from .. import files
+from ..errors import input_error, reading
+from ..render import fingerprint
+from ..run import content
+from .plan import Plan
+from .run_scene import settings_of
+
+NAME = "plan.json"
+_FORMAT = "firetwin dataset 1"
+
+
+def describe(plan: Plan, cache: Path) -> dict[str, Any]:
+    """Describe a plan without the paths of this machine: values, hashes of scene files and runs, versions.
+
+    Parameters
+    ----------
+    cache
+        Folder in which hashes of runs are kept.
+    """
+    from ..run import readers
+
+    found = asdict(plan) | {"draws": {name: _drawn(each) for name, each in plan.draws.items()}}
+    del found["path"]
+    for run, planned in zip(found["runs"], plan.runs, strict=True):
+        settings = settings_of(planned)
+        hashes = content.inputs(readers.open(settings.run), cache)
+        run["sha256"] = content.fingerprint({"run": hashes})
+        run["scene_sha256"] = content.sha256(planned.run) if planned.run.is_file() else ""
+        del run["run"]
+    return {"format": _FORMAT, "versions": fingerprint.versions(), "plan": json.loads(json.dumps(found))}
+
+
+def _drawn(distribution: Any) -> dict[str, Any]:
+    return {"kind": type(distribution).__name__} | asdict(distribution)
+
+
+def write(out: Path, made: dict[str, Any]) -> None:
+    """Write the record of a data set, or check that its folder has the same one.
+
+    Raises
+    ------
+    InputError
+        The folder has samples of another plan, or of other versions.
+    """
+    path = out / NAME
+    if not path.exists():
+        files.write_text(path, json.dumps(made, indent=1) + "\n")
+        return
+    known = read(out)
+    if known != made:
+        changed = ", ".join(_changes(known, made)) or "format"
+        reason = f"describes another data set (changed: {changed}); choose another folder for --out"
+        raise input_error(path, reason)
+
+
+def read(out: Path) -> dict[str, Any]:
+    """Read the record of a data set.
+
+    Raises
+    ------
+    InputError
+        The folder has no data set, or the file is damaged.
+    """
+    path = out / NAME
+    if not path.is_file():
+        raise input_error(path, "the folder has no data set; make one with: firetwin dataset PLAN --out DIR")
+    with reading(path):
+        return json.loads(path.read_text(encoding="utf-8"))
+
+
+def _changes(known: dict[str, Any], made: dict[str, Any]) -> list[str]:
+    """List the names of changed values."""
+    before, after = known.get("plan", {}), made["plan"]
+    names = [name for name in after if before.get(name) != after[name] and name != "draws"]
+    drawn = [
+        f"draws.{name}" for name, each in after["draws"].items() if before.get("draws", {}).get(name) != each
+    ]
+    versions = [f"version of {name}" for name, each in made["versions"].items()
+                if known.get("versions", {}).get(name) != each]
+    return [*names, *drawn, *versions]
