@@ -37,6 +37,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         from .farm import arguments as farm
 
         words, options = farm.split_options(words)
+    if package == "dataset":
+        from .dataset import arguments as dataset
+
+        words = dataset.insert_verb(words)
     arguments = _parser().parse_args(words)
     arguments.options = options
     if isinstance(sys.stdout, io.TextIOWrapper):
@@ -388,6 +392,10 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--json", action="store_true", help="write JSON: files and memory")
     tiles.add_access(render)
 
+    if optional_features.is_installed("dataset"):
+        from .dataset import arguments as dataset
+
+        dataset.add(command("dataset", "make labelled training data from a plan", dataset.DETAIL), types.path)
     if optional_features.is_installed("delivery"):
         from .delivery import arguments as delivery
 

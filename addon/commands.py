@@ -387,6 +387,13 @@ def render(arguments: argparse.Namespace) -> None:
         _list_output(arguments.out)
 
 
+def dataset(arguments: argparse.Namespace) -> int:
+    """Make labelled training data, or write it in other formats."""
+    from .dataset import command
+
+    return command.run(arguments)
+
+
 def farm(arguments: argparse.Namespace) -> int | None:
     """Plan, run or follow a farm job."""
     from .farm import command

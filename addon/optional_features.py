@@ -10,6 +10,7 @@ from pathlib import Path
 COMMANDS = {
     "allocate": "allocation",
     "brief": "brief",
+    "dataset": "dataset",
     "deliver": "delivery",
     "edit": "edit",
     "export": "export",

@@ -139,7 +139,18 @@ def parse(text: str, path: Path) -> Plan:
     )
 
 
-_PLAIN = "title", "license", "count", "seed", "resolution", "moments", "sites", "positives", "night", "split_by"
+_PLAIN = (
+    "title",
+    "license",
+    "count",
+    "seed",
+    "resolution",
+    "moments",
+    "sites",
+    "positives",
+    "night",
+    "split_by",
+)
 
 
 def _run(found: _Run) -> PlanRun:

@@ -197,6 +197,11 @@ def _counted(progress: Progress, before: int, total: int) -> Progress:
     return counted
 
 
+def cost_file(out: Path, index: int) -> Path:
+    """Return the file of the processor seconds of a sample; they differ each time, so metadata omit them."""
+    return out / WORK / "cost" / f"{index:06d}.json"
+
+
 def remove_parts(out: Path) -> int:
     """Remove unfinished files of killed processes, after all samples are finished; returns their number."""
     found = [path for folder in out.iterdir() if folder.is_dir() for path in folder.glob(".*.part*")]

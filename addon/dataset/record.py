@@ -84,6 +84,9 @@ def _changes(known: dict[str, Any], made: dict[str, Any]) -> list[str]:
     drawn = [
         f"draws.{name}" for name, each in after["draws"].items() if before.get("draws", {}).get(name) != each
     ]
-    versions = [f"version of {name}" for name, each in made["versions"].items()
-                if known.get("versions", {}).get(name) != each]
+    versions = [
+        f"version of {name}"
+        for name, each in made["versions"].items()
+        if known.get("versions", {}).get(name) != each
+    ]
     return [*names, *drawn, *versions]

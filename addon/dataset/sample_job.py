@@ -13,12 +13,12 @@ from ..jobs import worker
 from ..progress import MessageCallback, Progress
 from ..render import fingerprint
 from ..run import content
-from . import files, plan_file, produce
+from ..shot import picture_credits
+from . import files, imagery, licences, plan_file, produce
 from .draw import Draw
 from .draws import Drawer
 from .places import Visit
 from .plan import Plan
-from .truth import Truth
 
 
 def make(
