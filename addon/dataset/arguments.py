@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
-VERBS = ("make", "formats")
+VERBS = ("make", "formats", "check")
 _MAKE = VERBS[0]
 _FORMATS = "coco,yolo"
 
@@ -18,6 +18,7 @@ has a picture, its twin without smoke, alpha of smoke, depth, classes, a thermal
   firetwin dataset PLAN.toml --out DIR --estimate   print time, size and rejected cameras; make nothing
   firetwin dataset PLAN.toml --out DIR --only 0137  make these samples alone
   firetwin dataset formats DIR --format yolo,voc    write a finished data set in other formats
+  firetwin dataset check DIR                        check files, hashes, labels, formats and splits
 
 Several processes, also on several machines, can make one data set at the same time. A stopped process loses
 only the samples that it had not finished. `examples/dataset.toml` shows every key of a plan."""
@@ -46,8 +47,11 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path]) -> None:
         "--only", metavar="LIST", default="", help="samples to make, such as 0137 or 1-20 (all)"
     )
     make.add_argument("--estimate", action="store_true", help="print an estimate; make nothing")
+    make.add_argument("--json", action="store_true", help="write the estimate as JSON")
     formats = verb("formats", "write a finished data set in other formats")
     for each in (make, formats):
         help = f"formats of the labels, such as coco,yolo,voc, or all ({_FORMATS})"
         each.add_argument("--format", metavar="LIST", default=_FORMATS, help=help)
-    formats.add_argument("folder", metavar="DIR", type=path, help="folder of the data set")
+    check = verb("check", "check a finished data set; the exit status is 1 if it has faults")
+    for each in (formats, check):
+        each.add_argument("folder", metavar="DIR", type=path, help="folder of the data set")

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import json
 from pathlib import Path
+from typing import Any
 
 from ..progress import Reporter, count, result, say
-from . import finish, formats, plan_file, produce, sample_job
+from ..shot.schema.frame_list import FrameList
+from . import check, finish, formats, plan_file, produce, sample_job
 from .draws import count_rejects
 from .plan import SPLITS
 from .produce import Production
@@ -15,12 +18,17 @@ from .splits import Splits
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the requested verb; returns the exit status."""
+    if arguments.verb == "check":
+        return _check(arguments.folder)
     names = formats.names(arguments.format)
     if arguments.verb == "formats":
         _finish(arguments.folder, names)
         return 0
     plan = plan_file.read(arguments.plan)
     production = produce.prepare(plan, arguments.out, arguments.only, Reporter())
+    if arguments.estimate and arguments.json:
+        result(json.dumps(_facts(production), indent=1))
+        return 0
     lines = production.estimate().lines() + _describe(production)
     if arguments.estimate:
         result("\n".join(lines))
@@ -54,6 +62,32 @@ def _describe(production: Production) -> list[str]:
         reasons = ", ".join(f"{reason} {number:,}" for reason, number in rejects.items())
         found.append(f"{count(sum(rejects.values()), 'camera')} rejected and drawn again: {reasons}")
     return found
+
+
+def _facts(production: Production) -> dict[str, Any]:
+    """Collect the estimate for other programs; samples of one scene are made together."""
+    found = production.estimate()
+    scenes = [FrameList.of(each.index for each in visit.draws) for visit in production.visits]
+    return {
+        "count": production.plan.count,
+        "missing": found.samples,
+        "seconds": round(found.seconds),
+        "bytes": round(found.bytes),
+        "scenes": scenes,
+        "rejects": count_rejects(production.draws),
+        "splits": {index: each.split for index, each in production.draws.items()},
+    }
+
+
+def _check(folder: Path) -> int:
+    """Print the findings of a data set; returns 1 if it has faults."""
+    reporter, faults = Reporter("checking samples"), 0
+    for finding in check.check(folder, reporter):
+        result(f"{'' if finding.is_fault else 'note: '}{finding.text}")
+        faults += finding.is_fault
+    reporter.close()
+    say("no faults" if not faults else count(faults, "fault"))
+    return 1 if faults else 0
 
 
 def _finish(out: Path, names: tuple[str, ...]) -> None:

@@ -13,7 +13,7 @@ from ..errors import Error, UsageError
 from ..progress import Reporter, count, result, say
 from ..shot.schema.frame_list import FrameList
 from ..shot.source import ShotSource
-from . import assemble, plan, status, submission, task
+from . import assemble, dataset_job, plan, status, submission, task
 from .submission import Submission
 
 _MAX_TASK_NUMBER = 10**9 - 1  # far above any real number of tasks
@@ -27,6 +27,9 @@ def run(arguments: argparse.Namespace, choice: Callable[[argparse.Namespace], Sh
     choice
         Function that finds the scene of a command line.
     """
+    if arguments.verb == "plan" and dataset_job.is_plan(arguments.scene):
+        run_dataset_plan(arguments)
+        return 0
     if arguments.verb == "plan":
         run_plan(arguments, choice(arguments))
         return 0
@@ -46,6 +49,18 @@ def run_plan(arguments: argparse.Namespace, choice: ShotSource) -> None:
     shot = choice.shot()
     job = plan.make_job(shot, scene, arguments.chunk or plan.CHUNK)
     say(shot.describe_film())
+    _submit_job(arguments, job, out)
+
+
+def run_dataset_plan(arguments: argparse.Namespace) -> None:
+    """Plan a data set; print the command that submits it, or run that command."""
+    out = arguments.out.absolute()
+    job = dataset_job.make_job(arguments.scene.absolute(), out, arguments.chunk or plan.CHUNK)
+    _submit_job(arguments, job, out)
+
+
+def _submit_job(arguments: argparse.Namespace, job: plan.Job, out: Path) -> None:
+    """Write a job and the files of its scheduler; submit it, or print the command."""
     plan.write(job, out)
     for line in submission.describe(job, out):
         say(line)

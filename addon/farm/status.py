@@ -14,7 +14,8 @@ from typing import Any
 
 from ..progress import count, duration
 from ..shot import passes
-from . import entries, lost, plan
+from ..shot.schema.frame_list import FrameList
+from . import dataset_job, entries, lost, plan
 from .entries import Attempt
 from .plan import Job
 
@@ -135,6 +136,10 @@ def _made(job: Job, number: int, tried: list[Attempt], there: _FolderListings) -
     made = every = lacking = 0
     if task.stage != "render":
         return 0, 0, 0
+    if job.samples:
+        asked = FrameList(task.frames).frames(job.count)
+        found = len(asked) - len(dataset_job.missing(there.out, asked))
+        return found, len(asked), len(asked) - found
     for camera in task.cameras:
         listed = job.frames(task, camera)
         for view in job.views(camera):
