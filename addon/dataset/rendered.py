@@ -1,7 +1,7 @@
-"""A rendered sample: what the renderer knows of each pixel, before sensor effects and labels.
+"""A rendered sample: maps of each pixel, before sensor effects and labels.
 
-All maps are (h, w), or (h, w, 3), of one camera. Classes, instances, depth and range belong to the ray through
-the pixel's centre; the other maps are means over the pixel. Needs no Blender.
+All maps are (h, w), or (h, w, 3), of one camera. Classes, instances, depth and range belong to the ray
+through the pixel's centre; the other maps are means over the pixel. Needs no Blender.
 """
 
 from __future__ import annotations
@@ -55,8 +55,8 @@ class Rendered:
     twin
         (h, w, 3) the same without smoke: surfaces, air and flames. Shadows of smoke on the ground remain.
     light, twin_light
-        (h, w, 3) radiance of `rgb` and `twin`, linear Rec.709; 1 is white at `exposure` 0. It is free of noise
-        apart from the renderer's own.
+        (h, w, 3) radiance of `rgb` and `twin`, linear Rec.709; 1 is white at `exposure` 0. Its only noise
+        is the renderer's own.
     smoke_light
         (h, w, 3) radiance of the smoke alone. A smoke-free picture b becomes b * clear + smoke_light.
     exposure
