@@ -91,14 +91,7 @@ class Eye:
         """Compute the radiance (h, w, 3) of surfaces, smoke, flames and `text`, which was rendered alone."""
         rendered = self._surfaces()
         at = composite.taps(rendered)
-        marched = np.zeros((*at.shape, 8 if self.parts else 4), np.float32)
-        marched[..., 3::4] = not (self.smoke or self.flames)
-        if self.smoke or self.flames:
-            ends = at.reshape(-1, 3)
-            for weight, smoke, place in _marches(shutter.moments(self.smoke)):
-                lines = _lines(self._through(at=place))
-                found = self._march(smoke, *lines, ends, self.parts)
-                marched += np.float32(weight) * found.reshape(marched.shape)
+        marched = self._march_taps(at, self.parts)
         self.clear = marched[..., 3].mean(axis=-1)
         white = 2.0**-self.stage.scene.view_settings.exposure
         composed = composite.compose(rendered, at, marched, white if self.flames else None)
@@ -112,6 +105,20 @@ class Eye:
         if self.parts:
             self.layers |= {"labels.": written[..., :3], "labels.A": written[..., 3:]}
         return composite.place_over(composed.picture, written)
+
+    def _march_taps(
+        self, at: Array, parts: bool, places: Sequence[tuple[float, float]] = _PLACES
+    ) -> Array:
+        """March rays through `places` of each pixel to the taps (h, w, 3), m, and return their mean."""
+        marched = np.zeros((*at.shape, 8 if parts else 4), np.float32)
+        marched[..., 3::4] = not (self.smoke or self.flames)
+        if self.smoke or self.flames:
+            ends = at.reshape(-1, 3)
+            for weight, smoke, place in _marches(shutter.moments(self.smoke), places):
+                lines = _lines(self._through(at=place))
+                found = self._march(smoke, *lines, ends, parts)
+                marched += np.float32(weight) * found.reshape(marched.shape)
+        return marched
 
     def _march(
         self,
@@ -287,12 +294,12 @@ def _layers(composed: composite.Layers, rendered: composite.Surfaces, opacity: A
 
 
 def _marches(
-    moments: Sequence[tuple[float, Sequence[volume.Bricks]]],
+    moments: Sequence[tuple[float, Sequence[volume.Bricks]]], places: Sequence[tuple[float, float]]
 ) -> Iterator[tuple[float, Sequence[volume.Bricks], tuple[float, float]]]:
     """Yield weight, smoke and position in the pixel of each march: several in a pixel, and of an exposure."""
     for number, (weight, smoke) in enumerate(moments):
-        places = _PLACES if len(moments) == 1 else (_PLACES[number % len(_PLACES)],)
-        yield from ((weight / len(places), smoke, place) for place in places)
+        chosen = places if len(moments) == 1 else (places[number % len(places)],)
+        yield from ((weight / len(chosen), smoke, place) for place in chosen)
 
 
 def _lines(lines: rays.Rays) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime
 
@@ -30,6 +32,22 @@ class Moon:
 
 
 NO_MOON = Moon(*_STARS, 0.0)
+
+
+_fixed: list[tuple[float, float]] = []
+
+
+@contextlib.contextmanager
+def fixed(bearing: float, height: float) -> Iterator[None]:
+    """Fix the sun of all runs at a bearing and elevation (degrees), without a moon, during a `with` block.
+
+    Samples of a data set draw the sun independently of the date.
+    """
+    _fixed.append((bearing, height))
+    try:
+        yield
+    finally:
+        _fixed.pop()
 
 
 def angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
@@ -71,6 +89,8 @@ def moon(run: Run, time: float) -> Moon:
     4e-9 a^4)) (K. Krisciunas and B. E. Schaefer 1991, "A model of the brightness of moonlight", PASP 103).
     a is 180 degrees less the elongation, since the sun is far behind the moon.
     """
+    if _fixed:
+        return NO_MOON
     moment, place = times.utc(run, time), middle(run)
     bearing, height = moon_angles(*place, moment)
     if height <= 0.0:
@@ -104,6 +124,8 @@ def toward_moon(run: Run, time: float) -> NDArray[np.float64]:
 
 def position(run: Run, time: float) -> tuple[float, float]:
     """Compute the solar bearing and elevation (degrees) at the grid's centre at a model time (s)."""
+    if _fixed:
+        return _fixed[-1]
     return angles(*middle(run), times.utc(run, time))
 
 

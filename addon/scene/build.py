@@ -64,6 +64,7 @@ def steps(
     scene: bpy.types.Scene,
     parts: Sequence[str] = tuple(PARTS),
     tell: Callable[[str], None] = lambda _: None,
+    grown: stand.Stand | None = None,
 ) -> Iterator[str]:
     """Build parts step by step; each step yields its name before it runs.
 
@@ -73,17 +74,23 @@ def steps(
     ----------
     tell
         Receives each warning for the user, such as a part that could not be built as requested.
+    grown
+        The forest's trees, if they are already known.
     """
     try:
-        yield from _steps(shot, scene, parts, tell)
+        yield from _steps(shot, scene, parts, tell, grown)
     finally:
         node_updates.end_all()
 
 
 def _steps(
-    shot: Shot, scene: bpy.types.Scene, parts: Sequence[str], tell: Callable[[str], None]
+    shot: Shot,
+    scene: bpy.types.Scene,
+    parts: Sequence[str],
+    tell: Callable[[str], None],
+    grown: stand.Stand | None,
 ) -> Iterator[str]:
-    uid, grown, shape = scene.session_uid, None, None
+    uid, shape = scene.session_uid, None
 
     def stage() -> owned.Stage:
         return owned.stage(owned.scene(uid))
@@ -96,7 +103,7 @@ def _steps(
     infrared.build(shot, stage())
     if set(parts) == set(PARTS):
         clock.set_frame_range(shot, stage())
-    if shot.settings.forest.trees and _WITH_STAND & set(parts):
+    if grown is None and shot.settings.forest.trees and _WITH_STAND & set(parts):
         yield "growing the forest"
         if "terrain" in parts:
             grown, shape = _grow_and_shape(shot)
