@@ -18,11 +18,12 @@ from ..shot.cameras.path import Path
 from ..shot.cameras.rigs import kinds
 from ..shot.schema.frame_list import FrameList
 from ..shot.sections import Time
-from ..shot.settings import Camera, Settings, scene_file
+from ..shot.settings import Camera
 from ..shot.shot import Shot
 from . import air
 from .draw import Draw
 from .plan import Plan
+from .run_scene import settings_of
 
 MEMBERS = 12
 """Samples of a visit at most; with more cameras, each has fewer of the trees."""
@@ -67,16 +68,14 @@ def shot_of_visit(plan: Plan, visit: Visit) -> Shot:
 
     The sun is the date's; `shot_of_sample` has the sample's.
     """
-    given = _settings(plan, visit.draws[0].run)
+    given = settings_of(plan.run(visit.draws[0].run))
     run = open_run(given.run)
     time = max(each.time for each in visit.draws)
     settings = replace(
         given,
         time=Time(start=times.utc(run, time), frames=1, shutter=0.0, zone=given.time.zone),
         terrain=replace(given.terrain, error=_ERROR),
-        forest=replace(
-            given.forest, budget=_TREES, understorey=_UNDERSTOREY, draw_distance=_TREE_DISTANCE
-        ),
+        forest=replace(given.forest, budget=_TREES, understorey=_UNDERSTOREY, draw_distance=_TREE_DISTANCE),
         fire=replace(given.fire, firebrands=_FIREBRANDS, flames=visit.has_fire),
         smoke=replace(given.smoke, enabled=visit.has_fire, cell_budget=_CELLS),
         labels=replace(given.labels, enabled=False),
@@ -111,14 +110,6 @@ def shot_of_sample(visited: Shot, drawn: Draw) -> Shot:
     shot.ground, shot.front = visited.ground, visited.front
     shot.paths = [next(each for each in visited.paths if each.camera.name == camera.name)]
     return shot
-
-
-def _settings(plan: Plan, name: str) -> Settings:
-    """Read the scene file of a run, or make the default settings of a run folder."""
-    planned = plan.run(name)
-    if planned.run.suffix == ".toml":
-        return scene_file.read(planned.run)
-    return Settings(path=planned.run.parent / f"{name}.toml", run=planned.run)
 
 
 def _camera(drawn: Draw) -> Camera:

@@ -73,7 +73,8 @@ class Rendered:
     depth, range
         (h, w) m, planar depth and distance of the surface; inf for the sky.
     fire, twin_fire
-        (h, w, 3) radiance of flames, firebrands and embers, with smoke in front of them and without.
+        (h, w, 3) radiance of flames and firebrands, with smoke in front of them and without. Embers on the
+        ground are not in it; `surface` has them.
     kelvin
         (h, w) brightness temperature in the thermal band, K, with air and smoke, without sensor noise.
     camera

@@ -7,6 +7,7 @@ from ..blender.owned import Stage
 from ..progress import MessageCallback, Progress
 from ..render import credits, engine, layers
 from ..scene import build
+from ..scene.forest.stand import Stand
 from ..shot.shot import Shot
 
 KEPT = 512  # MB, Blender's volume cache limit: the smoke of one or two frames, for all of their pictures
@@ -23,11 +24,17 @@ def empty() -> Stage:
     return owned.adopt(bpy.context.scene)
 
 
-def build_scene(shot: Shot, progress: Progress, tell: MessageCallback) -> Stage:
-    """Build the scene of a shot, with view layers and engine, in a Blender without any other data."""
+def build_scene(shot: Shot, progress: Progress, tell: MessageCallback, grown: Stand | None = None) -> Stage:
+    """Build the scene of a shot, with view layers and engine, in a Blender without any other data.
+
+    Parameters
+    ----------
+    grown
+        The forest's trees, if they are already known.
+    """
     stage = empty()
     total = len(build.PARTS) + 2
-    for done, _ in enumerate(build.steps(shot, stage.scene, tell=tell)):
+    for done, _ in enumerate(build.steps(shot, stage.scene, tell=tell, grown=grown)):
         progress(done, total, "building the scene")
     layers.build(shot.settings, stage)
     engine.apply(shot.settings, stage.scene)

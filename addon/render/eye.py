@@ -106,9 +106,7 @@ class Eye:
             self.layers |= {"labels.": written[..., :3], "labels.A": written[..., 3:]}
         return composite.place_over(composed.picture, written)
 
-    def _march_taps(
-        self, at: Array, parts: bool, places: Sequence[tuple[float, float]] = _PLACES
-    ) -> Array:
+    def _march_taps(self, at: Array, parts: bool, places: Sequence[tuple[float, float]] = _PLACES) -> Array:
         """March rays through `places` of each pixel to the taps (h, w, 3), m, and return their mean."""
         marched = np.zeros((*at.shape, 8 if parts else 4), np.float32)
         marched[..., 3::4] = not (self.smoke or self.flames)

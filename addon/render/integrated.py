@@ -57,14 +57,17 @@ class IntegratedRenderer:
         """Frames in which smoke close to the camera hides more than half of the picture."""
         self.image = _image_node(self.scene)
         _prepare(self.scene)
-        (view,) = shot.paths
-        flame_field.set_reach(stage, flame_map.reach(shot, view))
+        flame_field.set_reach(stage, max(flame_map.reach(shot, view) for view in shot.paths))
         self.shadow = _shadow(shot, stage) if shot.settings.smoke.enabled else None
-        marched = [*stage.objects_of("Smoke"), *stage.objects_of("Fire")]
-        for volume_object in (each for each in marched if each.type == "VOLUME"):
-            volume_object.hide_render = True
+        self.hide_volumes()
         layers.exclude(self.scene, shadow.NAME.lower(), but="rgb")
         self.has_text = text_layer.build(stage)
+
+    def hide_volumes(self) -> None:
+        """Hide the volumes of smoke and flames from Cycles."""
+        marched = [*self.stage.objects_of("Smoke"), *self.stage.objects_of("Fire")]
+        for volume_object in (each for each in marched if each.type == "VOLUME"):
+            volume_object.hide_render = True
 
     def frame_renderer(self, smoke: Sequence[volume.Bricks], part: Path) -> Callable[[list[Picture]], None]:
         """Return a function that renders a frame's pictures with its smoke into a folder, before `finish`."""

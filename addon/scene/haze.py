@@ -130,6 +130,11 @@ def set_amount(stage: Stage, amount: float, low: smoke_haze.Layer | None = None)
     return group
 
 
+def colours(stage: Stage) -> list[bpy.types.NodeSocket]:
+    """Return the sockets with the airlight's radiance: near the camera, and where haze is thick."""
+    return [_group(stage).nodes[name].outputs[0] for name in ("Colour", "Horizon")]
+
+
 def illumination(
     stage: Stage, density: float = 1.0, tint: Sequence[float] = _WHITE[:3]
 ) -> dict[str, Sequence[float]]:

@@ -1,0 +1,153 @@
+"""Samples of a plan, rendered: one scene for each visit, in which each sample moves camera, sun and air.
+
+Each sample sets the whole state of the scene that it needs, so no sample depends on those before it.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Collection, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..progress import MessageCallback, no_message
+from ..run import sun, times
+from ..shot.shot import Shot
+from . import places
+from .draw import Draw
+from .places import Visit
+from .plan import Plan
+from .rendered import Camera, Rendered
+
+if TYPE_CHECKING:
+    from ..blender.owned import Stage
+    from ..smoke.sources import Source
+    from .sample_renderer import Cost, SampleRenderer
+
+_MOVED = "fire", "smoke", "light", "cameras"
+"""Parts of the scene that are built for each sample; terrain and forest are the visit's."""
+
+
+def render(
+    plan: Plan, visit: Visit, wanted: Collection[int], tell: MessageCallback = no_message
+) -> Iterator[tuple[Draw, Rendered]]:
+    """Build the scene of a visit in an otherwise empty Blender, and yield its wanted samples, rendered.
+
+    Parameters
+    ----------
+    wanted
+        Numbers of samples.
+    """
+    chosen = [each for each in visit.draws if each.index in wanted]
+    if not chosen:
+        return
+    scene = _VisitScene(plan, visit, tell)
+    for drawn in chosen:
+        yield drawn, scene.render(drawn)
+
+
+class _VisitScene:
+    """Built scene of a visit."""
+
+    def __init__(self, plan: Plan, visit: Visit, tell: MessageCallback) -> None:
+        from ..jobs import worker_scene
+        from ..render import engine
+        from ..scene.forest import stand
+        from ..scene.forest.frame_culling import FrameCulling
+        from ..smoke import sources
+        from .sample_renderer import Cost, SampleRenderer
+
+        self.visit, self.tell, self.cost = visit, tell, Cost()
+        with self.cost.part("smoke solved"):
+            self.shot = places.shot_of_visit(plan, visit)
+            self.source = sources.select(self.shot) if visit.has_fire else None
+            if self.source:
+                self.source.prepare([1])
+        with self.cost.part("scene built"):
+            self.grown = stand.grow(self.shot) if self.shot.settings.forest.trees else None
+            self.stage: Stage = worker_scene.build_scene(self.shot, lambda *_: None, tell, self.grown)
+            engine.check_working_space()
+            self.renderer: SampleRenderer = SampleRenderer(self.shot, self.stage)
+            self.culling = FrameCulling(self.shot, self.stage)
+
+    def render(self, drawn: Draw) -> Rendered:
+        """Render a sample."""
+        with sun.fixed(drawn.sun_azimuth, drawn.sun_elevation), tempfile.TemporaryDirectory() as folder:
+            return self._render(drawn, Path(folder))
+
+    def _render(self, drawn: Draw, folder: Path) -> Rendered:
+        from .. import memory
+        from .sample_renderer import Cost
+
+        cost = Cost()
+        with cost.part("scene moved"):
+            shot = places.shot_of_sample(self.shot, drawn)
+            self._move(shot, drawn)
+        with cost.part("smoke painted"):
+            smoke = self._smoke(shot).bricks(1) if self.source else []
+        maps = self.renderer.maps(shot, smoke, folder, cost)
+        memory.release_freed()
+        return Rendered(
+            **maps,
+            camera=_camera(shot),
+            time=times.utc(shot.run, drawn.time),
+            model_time=drawn.time,
+            facts=self._facts(cost),
+        )
+
+    def _move(self, shot: Shot, drawn: Draw) -> None:
+        """Move camera, sun, time and air of the scene to those of a sample."""
+        from ..render import layers
+        from ..scene import build
+        from . import scene_air
+
+        stage = self.stage
+        for _ in build.steps(shot, stage.scene, _MOVED, self.tell, self.grown):
+            pass
+        layers.complete(shot.settings, stage, _MOVED)
+        scene_air.apply(stage, drawn)
+        stage.scene.cycles.seed = shot.settings.render.seed
+        stage.scene.camera = stage.camera(drawn.name)
+        stage.scene.frame_set(1)
+        self.culling.shot = shot
+        self.culling.apply(1)
+        self.renderer.hide_volumes()
+
+    def _smoke(self, shot: Shot) -> Source:
+        """Return the source of a sample's smoke: the visit's flow, painted for the sample's view."""
+        from ..smoke import sources
+        from ..smoke.sources.flow import FlowSource
+
+        source = sources.select(shot)
+        if isinstance(source, FlowSource) and isinstance(self.source, FlowSource):
+            source.flow = self.source.flow
+        return source
+
+    def _facts(self, cost: Cost) -> dict[str, Any]:
+        """Return the processor seconds of a sample's parts, and its share of the visit's."""
+        share = {name: value / len(self.visit.draws) for name, value in self.cost.seconds.items()}
+        parts = share | cost.seconds
+        return {"processor_seconds": {name: round(value, 2) for name, value in parts.items()}}
+
+
+def _camera(shot: Shot) -> Camera:
+    """Describe the camera of a sample's shot."""
+    (view,) = shot.paths
+    width, height = shot.settings.render.resolution
+    to_world = np.eye(4)
+    to_world[:3, :3], to_world[:3, 3] = view.rotation[0], view.position[0]
+    latitude, longitude, above = (float(part[0]) for part in shot.local_frame.reverse(view.position[:1]))
+    return Camera(
+        to_world=to_world,
+        fx=0.5 * width / view.half[0],
+        fy=0.5 * height / view.half[1],
+        cx=0.5 * width,
+        cy=0.5 * height,
+        width=width,
+        height=height,
+        latitude=latitude,
+        longitude=longitude,
+        ellipsoidal_height=above,
+    )

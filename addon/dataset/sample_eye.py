@@ -1,0 +1,125 @@
+"""Eye of a sample: all maps of a picture from one render of its surfaces and one march of its smoke."""
+
+from __future__ import annotations
+
+import functools
+from typing import NamedTuple
+
+import numpy as np
+from firetwin_core import sensor, volume
+from numpy.typing import NDArray
+
+from ..render import composite
+from ..render.eye import Eye
+from ..render.finish.masks import classes
+from ..scene.smoke import illumination
+from ..shot.cameras.pixel_rays import SKY
+from ..shot.passes import masks
+from ..shot.sections.thermal import BANDS
+
+Array = NDArray[np.float32]
+
+_MIDDLE = ((0.5, 0.5),)  # one marched ray in a pixel: smoke is smooth within four pixels
+_WHITE = 1.2  # as in `render.eye`
+_STEP = 1.0  # voxels, step along the rays that measure the distance of smoke
+_SPARSE = 2  # pixels between these rays
+_SEEN = 0.01  # opacity of smoke from which it has a distance
+_NEAREST, _FARTHEST, _TAPS = 5.0, 6.0e4, 40  # m; distances along a ray at which opacity is known
+
+
+class Light(NamedTuple):
+    """Radiance maps (h, w, 3), and transmittance of smoke (h, w)."""
+
+    picture: Array
+    twin: Array
+    smoke: Array
+    fire: Array
+    twin_fire: Array
+    clear: Array
+
+
+class SampleEye(Eye):
+    """Eye that computes the maps of a sample."""
+
+    def light(self) -> Light:
+        """Compute the picture with smoke and without, and their parts."""
+        rendered = self._surfaces()
+        at = composite.taps(rendered)
+        marched = self._march_taps(at, True, _MIDDLE)
+        self.clear = marched[..., 3].mean(axis=-1)
+        composed = self._compose(rendered, at, marched)
+        clear = 1.0 - composite.smoke_opacity(rendered, at, marched)
+        if not self.smoke:
+            return Light(*(2 * [composed.picture]), composed.smoke, *(2 * [composed.fire]), clear)
+        smoke, self.smoke = self.smoke, []
+        twin = self._compose(rendered, at, self._march_taps(at, True, _MIDDLE))
+        self.smoke = smoke
+        return Light(composed.picture, twin.picture, composed.smoke, composed.fire, twin.fire, clear)
+
+    def _compose(self, rendered: composite.Surfaces, at: Array, marched: Array) -> composite.Layers:
+        white = 2.0**-self.stage.scene.view_settings.exposure
+        composed = composite.compose(rendered, at, marched, white if self.flames else None)
+        return composite.soften_highlights(composed, _WHITE * white) if self.flames else composed
+
+    def kelvin(self) -> Array:
+        """Compute the brightness temperature (h, w), K."""
+        table = sensor.PlanckTable(BANDS[self.shot.settings.thermal.band])
+        return table.brightness_temperature(self.radiance(1)).astype(np.float32)
+
+    def smoke_range(self, clear: Array) -> Array:
+        """Measure the distance (h, w) at which smoke reaches half of its opacity, m; inf without smoke."""
+        found = np.full(self.shape, np.inf, np.float32)
+        if not self.smoke:
+            return found
+        sparse = (slice(None, None, _SPARSE), slice(None, None, _SPARSE))
+        seen = clear[sparse] < 1.0 - _SEEN
+        if not seen.any():
+            return found
+        origins, directions = self.rays.origins, self.rays.directions[sparse][seen]
+        ends = np.minimum(self.distance[sparse][seen], _FARTHEST)
+        at = np.geomspace(np.minimum(_NEAREST, ends), ends, _TAPS, axis=-1).astype(np.float32)
+        through = volume.march(self.smoke, origins, directions, at, self._light, _STEP)[..., 3]
+        half = 0.5 * (1.0 + through[:, -1:])
+        after = np.argmax(through <= half, axis=1)
+        rows, before = np.arange(len(at)), np.maximum(after - 1, 0)
+        high, low = through[rows, before], through[rows, after]
+        part = np.clip((high - half[:, 0]) / np.maximum(high - low, 1.0e-6), 0.0, 1.0)
+        coarse = np.full(seen.shape, np.inf, np.float32)
+        coarse[seen] = at[rows, before] + part * (at[rows, after] - at[rows, before])
+        height, width = self.shape
+        found = np.repeat(np.repeat(coarse, _SPARSE, axis=0), _SPARSE, axis=1)[:height, :width]
+        return np.where(clear < 1.0 - _SEEN, found, np.inf).astype(np.float32)
+
+
+class CentreEye(SampleEye):
+    """Eye whose surfaces were rendered by one ray through the centre of each pixel."""
+
+    @functools.cached_property
+    def depth(self) -> Array:
+        """Planar depth (h, w), m; inf for the sky."""
+        depth = self.channels["Depth"][..., 0]
+        return np.where(depth < SKY, depth, np.inf).astype(np.float32)
+
+    @property
+    def range(self) -> Array:
+        """Distance (h, w), m; inf for the sky."""
+        return np.where(np.isfinite(self.depth), self.distance, np.inf).astype(np.float32)
+
+    def classes(self, clear: Array) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.int32]]:
+        """Return class, class behind smoke, and instance (h, w), from the transmittance (h, w) of smoke."""
+        pixels, clear = self.channels["Combined"].copy(), clear.copy()
+        if self.flames:
+            ends, burning = self._flames_before(self.distance.copy())
+            pixels[burning] = 0.0, 1.0, masks.FIRE
+            clear[burning] = self._transmittance(burning, ends)
+        surface, instance, _, _ = classes(pixels)
+        shown = np.where(clear > 1.0 - masks.HIDES, surface, masks.SMOKE)
+        return shown.astype(np.uint8), surface.astype(np.uint8), instance.astype(np.int32)
+
+    def _transmittance(self, chosen: NDArray[np.bool_], ends: Array) -> Array:
+        """Return the transmittance (n,) of smoke up to distances (h, w), m, of chosen pixels (h, w)."""
+        if not (self.smoke and chosen.any()):
+            return np.ones(int(chosen.sum()), np.float32)
+        rays = self.rays
+        depth = volume.optical_depth(self.smoke, rays.origins, rays.directions[chosen], ends[chosen], _STEP)
+        return np.exp(-depth * illumination.extinction_factor(self.stage)).astype(np.float32)

@@ -1,0 +1,111 @@
+"""Renderer of samples: moves camera, sun and air in a built scene, and renders the maps of each sample."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from firetwin_core import sensor, volume
+from numpy.typing import NDArray
+
+from ..blender.owned import Stage
+from ..render import frame_cost, surfaces
+from ..render.integrated import IntegratedRenderer
+from ..render.picture import Picture
+from ..scene import flame_field
+from ..shot.fire import flame_map
+from ..shot.shot import Shot
+from .sample_eye import CentreEye, SampleEye
+
+Array = NDArray[np.float32]
+
+_FRAME = 1
+
+
+class Cost:
+    """Processor seconds of the parts of one sample."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+
+    @contextmanager
+    def part(self, name: str) -> Iterator[None]:
+        """Add the processor time of the block to a part."""
+        began = time.process_time()
+        try:
+            yield
+        finally:
+            self.seconds[name] = self.seconds.get(name, 0.0) + time.process_time() - began
+
+
+class SampleRenderer(IntegratedRenderer):
+    """Renderer of the samples of a built scene."""
+
+    def __init__(self, shot: Shot, stage: Stage) -> None:
+        super().__init__(shot, stage, frame_cost.FrameCost())
+
+    def maps(self, shot: Shot, smoke: Sequence[volume.Bricks], folder: Path, cost: Cost) -> dict[str, Any]:
+        """Render the maps of a sample (see `rendered.Rendered`) for the current state of the scene."""
+        self.shot = shot
+        (view,) = shot.paths
+        name = view.camera.name
+        with cost.part("flames"):
+            flame_field.set_reach(self.stage, flame_map.reach(shot, view))
+            flames, outline = self._flames(_FRAME)
+            distance = self._measure_flames(outline)
+        with cost.part("shadow of smoke"):
+            if self.shadow:
+                self.shadow.cast(self.stage, smoke)
+        with cost.part("surfaces"):
+            found = self._surfaces("rgb", folder)
+        with cost.part("classes"):
+            centres = self._surfaces("masks", folder, centres=True)
+        burning = flames, outline
+        eye = SampleEye(shot, self.stage, found, 0, smoke, *burning, flame_distance=distance)
+        centre = CentreEye(shot, self.stage, centres, 0, smoke, *burning)
+        with cost.part("smoke march"):
+            light = eye.light()
+            away = eye.smoke_range(light.clear)
+        with cost.part("labels"):
+            classes, surface, instance = centre.classes(light.clear)
+        with cost.part("thermal"):
+            kelvin = eye.kelvin()
+        with cost.part("display"):
+            rgb = self._displayed(light.picture, name, folder)
+            twin = rgb if light.twin is light.picture else self._displayed(light.twin, name, folder)
+        return {
+            "rgb": rgb,
+            "twin": twin,
+            "light": light.picture,
+            "twin_light": light.twin,
+            "smoke_light": light.smoke,
+            "exposure": float(self.scene.view_settings.exposure),
+            "clear": light.clear,
+            "smoke_range": away,
+            "classes": classes,
+            "surface": surface,
+            "instance": instance,
+            "depth": centre.depth,
+            "range": centre.range,
+            "fire": light.fire,
+            "twin_fire": light.twin_fire,
+            "kelvin": kelvin,
+        }
+
+    def _displayed(self, light: Array, name: str, folder: Path) -> Array:
+        """Apply the film's contrast and bloom to radiance (h, w, 3)."""
+        picture = Picture(name, _FRAME, "rgb")
+        self._composite(light, picture, folder)
+        file = folder / Path(picture.file("png")).name
+        shown = sensor.read_image(file)[..., :3]
+        file.unlink()
+        return shown
+
+    def _surfaces(self, name: str, folder: Path, centres: bool = False) -> surfaces.Channels:
+        """Render the surfaces of a pass."""
+        ((_, found),) = surfaces.render(self.scene, [name], folder, centres)
+        return found[name]
