@@ -98,7 +98,7 @@ class _VisitScene:
         )
 
     def _move(self, shot: Shot, drawn: Draw) -> None:
-        """Move camera, sun, time and air of the scene to those of a sample."""
+        """Move camera, sun, time and air of the scene for a sample."""
         from ..render import layers
         from ..scene import build
         from . import scene_air
