@@ -100,6 +100,7 @@ def register() -> None:
     stations_panel.register()
     tile_credits.register()
     feature_panels.register()
+    vr.register()
     if bpy.app.module:
         atexit.register(unregister)
 
@@ -111,6 +112,7 @@ def unregister() -> None:
     atexit.unregister(unregister)
     working.cancel_task()
     queue.clear()
+    vr.unregister()
     feature_panels.unregister()
     maps.clear()
     tile_credits.unregister()

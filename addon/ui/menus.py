@@ -89,6 +89,8 @@ MENUS: dict[str, tuple[Line, ...]] = {
         Entry("camera_remove", icon="REMOVE"),
         Entry("go", icon="FORWARD"),
         Submenu("FIRETWIN_MT_go", "Go to place of the run"),
+        Entry("vr_session", icon="VIEW3D"),
+        Submenu("FIRETWIN_MT_vr_landmarks", "Start VR at landmark"),
         Entry("vr_landmarks", icon="PMARKER_ACT"),
         Entry("station_map", icon="IMAGE_DATA"),
         Entry("station_pick", icon="EYEDROPPER"),
@@ -116,7 +118,15 @@ MENUS: dict[str, tuple[Line, ...]] = {
 }
 """Submenus of the menu Firetwin, and their lines."""
 
-WITHOUT_ENTRY = {"convert": "Open run starts it", "queue_esc": "Render in background starts it"}
+WITHOUT_ENTRY = {
+    "convert": "Open run starts it",
+    "queue_esc": "Render in background starts it",
+    "vr_start_at": "the menu of landmarks calls it",
+    "vr_play": "a controller calls it",
+    "vr_time": "a controller calls it",
+    "vr_landmark": "a controller calls it",
+    "vr_turn": "a controller calls it",
+}
 """Operators that only other operators call, and the reason."""
 
 PIE = (

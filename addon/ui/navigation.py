@@ -286,7 +286,6 @@ class FIRETWIN_PT_flying(SidebarPanel, bpy.types.Panel):
         row.prop(scene.firetwin, "go_to", text="", icon="VIEWZOOM", placeholder="38.82 -120.55")
         row.operator("firetwin.go", text="", icon="FORWARD").smooth = scene.firetwin.go_smoothly
         row.menu("FIRETWIN_MT_go", text="", icon="DOWNARROW_HLT")
-        column.operator("firetwin.vr_landmarks", icon="PMARKER_ACT")
 
 
 classes = (

@@ -19,13 +19,14 @@ from . import (
     station_selection,
     time,
 )
+from .vr.session import VrProperties
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 _NOT_COPIED = ("runs", "cameras", "model_time", "station_index", "station_filter")
 _SETTINGS = sections.property_annotations(sections.top_level_keys() + sections.sections(), Settings)
 
 
-_Settings: type = type("Settings", feature_panels.properties, {"__annotations__": _SETTINGS})
+_Settings: type = type("Settings", (VrProperties, *feature_panels.properties), {"__annotations__": _SETTINGS})
 
 
 class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):

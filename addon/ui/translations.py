@@ -10,6 +10,14 @@ import bpy
 GERMAN = {
     # operators
     "Add VR landmarks": "VR-Landmarken hinzufügen",
+    "Start or stop VR": "VR starten oder beenden",
+    "Start VR at landmark": "VR an Landmarke starten",
+    "Play or pause in VR": "In VR abspielen oder anhalten",
+    "Move time in VR": "Zeit in VR bewegen",
+    "Go to landmark in VR": "In VR zur Landmarke gehen",
+    "Turn in VR": "In VR drehen",
+    "Start VR at": "VR starten an",
+    "VR": "VR",
     "Add Firetwin Regrade": "Firetwin Regrade hinzufügen",
     "Add camera from view": "Kamera aus Ansicht hinzufügen",
     "Add run to compare": "Vergleichslauf hinzufügen",

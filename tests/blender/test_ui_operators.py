@@ -138,10 +138,12 @@ KEEPS = {
     "farm_resume": {},
     "farm_cancel": {},
     "help": {"page": "farm"},
+    "vr_start_at": {"name": "Ignition"},
 }
 BOX = {"name": "set", "tiles": 1, "credits": [], "corners": np.arange(24.0).tolist()}
 ALLOCATION = {"divisions": [], "reasons": [], "left_out": [], "map": {"features": []}}
 LISTENS = {"queue_esc", "station_pick", "stop", "fly"}  # for Esc or a click, and while something goes on
+IN_VR = {"vr_session", "vr_play", "vr_time", "vr_landmark", "vr_turn"}  # need a headset
 
 
 def call(name, options, folder):
@@ -155,7 +157,7 @@ def call(name, options, folder):
 @pytest.mark.slow  # every operator, undone and redone
 def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path, monkeypatch):
     """Undo reverts the changes of an operator, and redo restores them; other operators change nothing."""
-    assert {*CHANGES, *KEEPS, *LISTENS} == set(OPERATORS)
+    assert {*CHANGES, *KEEPS, *LISTENS, *IN_VR} == set(OPERATORS)
     monkeypatch.setattr(convert, "default_output", lambda paths, *_, **__: (paths[0], True))
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))

@@ -11,6 +11,8 @@ packages=(
   python3-scipy # for the suggested allocation
   # A screen, hands, eyes, and OpenGL by the CPU.
   xvfb xdotool python3-xlib imagemagick libgl1-mesa-dri libegl1
+  # A headset without a device.
+  monado-service libopenxr1-monado mesa-vulkan-drivers
   g++ cmake ninja-build pkgconf python3-dev python3-venv
   libopenvdb-dev libboost-dev libimath-dev libblosc-dev libtbb-dev libopenimageio-dev libopenexr-dev
   libgeographiclib-dev libtomlplusplus-dev libfast-float-dev libfftw3-dev

@@ -21,6 +21,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import allocating
 import customized
 import found
+import headset
 import inventory
 import page
 import shown
@@ -440,7 +441,7 @@ def session() -> Iterator[object]:
         *(found.manual, found.find, found.pie, customized.shortcuts, customized.german),
         *(customized.preferences, customized.assets, allocating.allocate),
         *(by_hand, undo, beside, file, shown.drop, tile_preview.tiles, page.page),
-        customized.cache,
+        *(customized.cache, headset.headset),
     ):
         if step.__name__ in STEPS:
             yield from step()

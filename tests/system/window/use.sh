@@ -9,7 +9,7 @@ steps=("$@")
 if ((${#steps[@]} == 0)); then
   steps=(commands panel quality build sections dialogs look parts scrub render)
   steps+=(manual find pie shortcuts german preferences assets allocate
-    by_hand undo beside file drop tiles page cache)
+    by_hand undo beside file drop tiles page cache headset)
 fi
 here=/firetwin/tests/system/window
 export LIBGL_ALWAYS_SOFTWARE=1 BLENDER_USER_RESOURCES=$PWD/user
@@ -27,6 +27,21 @@ firetwin() { # status arguments...
     say "FAILED: blender --command firetwin $* ended with $status, not $want"
     exit 1
   fi
+}
+
+# Monado with a headset that only the step `headset` moves; without a compositor that needs a GPU.
+headset() {
+  if ! command -v monado-service >/dev/null; then
+    say "SKIPPED: the step headset, because Monado is missing (Debian: apt-get install monado-service libopenxr1-monado)"
+    return
+  fi
+  export XDG_RUNTIME_DIR=/tmp/firetwin-headset XR_RUNTIME_JSON=/usr/share/openxr/1/openxr_monado.json
+  rm -rf "$XDG_RUNTIME_DIR"
+  mkdir -m 700 "$XDG_RUNTIME_DIR"
+  VK_DRIVER_FILES=/usr/share/vulkan/icd.d/lvp_icd.json P_OVERRIDE_ACTIVE_CONFIG=remote XRT_COMPOSITOR_NULL=1 \
+    XRT_NO_STDIN=1 monado-service >monado.log 2>&1 &
+  trap 'kill %1 2>/dev/null || true' EXIT
+  until [[ -S $XDG_RUNTIME_DIR/monado_comp_ipc ]] || ! kill -0 %1 2>/dev/null; do sleep 0.2; done
 }
 
 prepare() {
@@ -94,4 +109,7 @@ if [[ " ${steps[*]} " == *" commands "* ]]; then
   commands
 fi
 leave
+if [[ " ${steps[*]} " == *" headset "* ]]; then
+  headset
+fi
 session

@@ -12,8 +12,8 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-from ..progress import count
-from . import camera_targets, go_to, landmarks, navigation, place_names, working
+from ...progress import count
+from .. import camera_targets, go_to, landmarks, navigation, place_names, working
 
 NO_VIEWER = "Enable VR Scene Inspection in Blender's preferences (Add-ons) first"
 MOST = 100  # stations
@@ -67,7 +67,7 @@ def _add_fixed_landmark(scene: bpy.types.Scene, name: str, where: Vector, to: Ve
     found = _select_landmark(scene, name)
     found.type = "CUSTOM"
     found.base_pose_location = where
-    found.base_pose_angle = 0.0 if to is None else _heading(to - where)
+    found.base_pose_angle = 0.0 if to is None else heading(to - where)
 
 
 def _add_head_landmark(scene: bpy.types.Scene, began: Vector) -> None:
@@ -76,13 +76,13 @@ def _add_head_landmark(scene: bpy.types.Scene, began: Vector) -> None:
     for old in [obj for obj in scene.objects if obj.name == landmarks.HEAD and obj.type == "EMPTY"]:
         bpy.data.objects.remove(old)
     empty = camera_targets.create_moving_empty(scene, landmarks.HEAD, track)
-    empty.rotation_euler.z = _heading(Vector(track[-1]) - began)
+    empty.rotation_euler.z = heading(Vector(track[-1]) - began)
     found = _select_landmark(scene, landmarks.HEAD)
     found.type = "OBJECT"
     found.base_pose_object = empty
 
 
-def _heading(way: Vector) -> float:
+def heading(way: Vector) -> float:
     """Return the rotation about the vertical, rad, that turns north into this direction."""
     return math.atan2(-way.x, way.y) if np.hypot(way.x, way.y) > 0.0 else 0.0
 

@@ -1,0 +1,155 @@
+"""Start and stop of Blender's VR session with the scale, clipping range and landmark of the scene.
+
+Blender keeps one set of session settings. They get their former values back when the session ends.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+from mathutils import Vector
+
+from ...blender import viewport
+from .. import navigation, working
+from . import display, landmark_list
+
+SCALES = {"LIFE": 1.0, "TABLE": 1000.0}
+_CHANGED = (
+    "base_pose_type",
+    "base_pose_location",
+    "base_pose_angle",
+    "base_scale",
+    "clip_start",
+    "clip_end",
+    "show_floor",
+)
+_NEAR = 0.5  # m at life size; nearer, the depth buffer confuses distant surfaces
+
+_former: dict[str, Any] = {}
+
+
+class VrProperties:
+    """Properties of the scene that the panel VR shows."""
+
+    vr_scale: bpy.props.EnumProperty(
+        name="Scale",
+        description="Scale of the scene in the headset",
+        items=(
+            ("LIFE", "1:1", "Stand in the scene at life size"),
+            ("TABLE", "1:1000", "Table top: a kilometre is a metre long"),
+        ),
+    )
+    vr_turn: bpy.props.FloatProperty(
+        name="Snap turn",
+        description="Angle of a turn with the left thumbstick",
+        default=0.5235987755982988,
+        min=0.0873,
+        max=1.5708,
+        subtype="ANGLE",
+    )
+    vr_fade: bpy.props.BoolProperty(
+        name="Fade on cuts", description="Fade from black after a cut to another landmark", default=True
+    )
+    vr_landmark: bpy.props.StringProperty(name="Landmark", description="Landmark at which the viewer starts")
+
+
+def is_running() -> bool:
+    """Return whether Blender shows a VR session."""
+    return bpy.types.XrSessionState.is_running(bpy.context)
+
+
+def stand(context: bpy.types.Context, name: str, angle: float | None = None) -> bool:
+    """Place the viewer at a landmark, with another angle (rad) if it is given; False: no such place."""
+    scene, manager = context.scene, context.window_manager
+    found = landmark_list.pose(scene, name)
+    if found is None:
+        return False
+    settings = manager.xr_session_settings
+    settings.base_pose_type = "CUSTOM"
+    settings.base_pose_location = _table_place(scene, found.place)
+    settings.base_pose_angle = found.angle if angle is None else angle
+    scene.firetwin.vr_landmark = name
+    if manager.xr_session_state is not None and is_running():
+        manager.xr_session_state.reset_to_base_pose(context)
+        if scene.firetwin.vr_fade:
+            display.fade()
+    return True
+
+
+def _table_place(scene: bpy.types.Scene, place: Vector) -> Vector:
+    """Return the place of the eyes: at a table top they are half a metre above the table."""
+    if scene.firetwin.vr_scale == "LIFE":
+        return place
+    raised = place.copy()
+    raised.z += 0.5 * SCALES["TABLE"]
+    return raised
+
+
+def restore() -> None:
+    """Give the session settings their former values."""
+    settings = bpy.context.window_manager.xr_session_settings
+    for name, value in _former.items():
+        setattr(settings, name, value)
+    _former.clear()
+
+
+def _keep(settings: bpy.types.XrSessionSettings) -> None:
+    """Note the values that a session changes."""
+    for name in _CHANGED:
+        value = getattr(settings, name)
+        _former.setdefault(name, tuple(value) if name.endswith("location") else value)
+
+
+def prepare(context: bpy.types.Context) -> None:
+    """Set scale, clipping and landmark of the session."""
+    scene, settings = context.scene, context.window_manager.xr_session_settings
+    _keep(settings)
+    scale = SCALES[scene.firetwin.vr_scale]
+    settings.base_scale = scale
+    settings.clip_start, settings.clip_end = _NEAR * scale, viewport.FAR
+    settings.show_floor = False
+    names = landmark_list.names(scene)
+    name = scene.firetwin.vr_landmark
+    if names:
+        stand(context, name if name in names else names[0])
+
+
+class FIRETWIN_OT_vr_session(bpy.types.Operator):
+    """Start Blender's VR session in this scene, or stop it; needs a headset and its OpenXR runtime"""
+
+    bl_idname = "firetwin.vr_session"
+    bl_label = "Start or stop VR"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not bpy.app.build_options.xr_openxr:
+            cls.poll_message_set("This Blender is built without OpenXR")
+            return False
+        if bpy.app.background:
+            cls.poll_message_set("VR needs Blender's window")
+            return False
+        return navigation.can_navigate(cls, context)
+
+    @working.report_errors
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        running = is_running()
+        if not running:
+            prepare(context)
+        with context.temp_override(**_view_override(context)):
+            bpy.ops.wm.xr_session_toggle()
+        if running:
+            return {"FINISHED"}
+        display.start(restore)
+        return {"FINISHED"}
+
+
+def _view_override(context: bpy.types.Context) -> dict[str, Any]:
+    """Return the context of a 3D view, which Blender's operator needs."""
+    window = context.window or context.window_manager.windows[0]
+    area = next((each for each in window.screen.areas if each.type == "VIEW_3D"), window.screen.areas[0])
+    return {"window": window, "area": area}
+
+
+classes = (FIRETWIN_OT_vr_session,)
