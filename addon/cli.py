@@ -385,6 +385,11 @@ def _parser() -> argparse.ArgumentParser:
         help="keep finished pictures whose settings and inputs have not changed",
     )
     render.add_argument(
+        "--follow",
+        action="store_true",
+        help="render each frame when the next model time of a growing run exists (see watch)",
+    )
+    render.add_argument(
         "--preset",
         choices=types.OUTPUT_PRESETS,
         help="settings of EXR files and films for post-production (from the scene file)",

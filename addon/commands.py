@@ -380,7 +380,12 @@ def render(arguments: argparse.Namespace) -> None:
         arguments.resume,
         access=_tile_access(arguments),
     )
-    made = render.run(_find_source(arguments), asked, Reporter(), say)
+    if arguments.follow:
+        from .jobs import follow
+
+        made = follow.run(_find_source(arguments), asked, Reporter(), say)
+    else:
+        made = render.run(_find_source(arguments), asked, Reporter(), say)
     if arguments.json:
         print(json.dumps(_render_json(arguments.out, made), indent=1))
     else:

@@ -107,6 +107,10 @@ Without --resume all selected frames are rendered again. Several renders, on one
 to one folder at the same time and divide the frames by leases. Start each with --resume and with the same
 scene file, run, Firetwin and Blender.
 
+--follow films a run that `watch` writes. A frame is rendered when the next model time exists, from the times
+up to it, so that it equals the frame that --follow renders when the model has ended. Exposure is metered in
+the first frame and kept. Cameras that follow the fire are an error. Films are replaced as a whole.
+
 Before the first frame the expected memory is printed, if there is an estimate: for smoke solved as a flow
 and ray marched, and for pictures without smoke. At the end --json prints expected and peak memory (bytes,
 null if unknown), the number of pictures rendered by this command, and the files."""

@@ -7,6 +7,7 @@ import inspect
 import sys
 from dataclasses import replace
 from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 import firetwin_core
@@ -14,6 +15,7 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
+from ..run.growing import known_run
 from ..shot import comparison, forecast, passes, picture_credits, schema
 from ..shot.settings import Camera, Settings, code_fingerprint, mount
 from ..shot.shot import Shot
@@ -131,7 +133,7 @@ def compute_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = 
     shots = {
         label: comparison.for_run(shot, label) for label in {view.partition("@")[2] for view, _ in pairs}
     }
-    runs = {label: own.input_hashes(progress=progress) | more for label, own in shots.items()}
+    runs = {label: _run_inputs(own, progress) | more for label, own in shots.items()}
     members = forecast.inputs(shot.settings, progress)
     made_with, find = {}, tile_cut.finder(shot)
     for view, name in sorted(pairs):
@@ -141,6 +143,15 @@ def compute_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = 
         if members and "forecast" in passes.known()[name].all_aspects:
             made_with[view, name] |= {"members": members}
     return made_with
+
+
+def _run_inputs(shot: Shot, progress: Progress) -> dict[str, str]:
+    """Hash the run; all known runs of a growing run (`run.growing.known_run`) have one identity."""
+    identity = known_run.identity(Path(shot.run.path))
+    if not identity:
+        return shot.input_hashes(progress=progress)
+    names = content.field_names(shot.run)
+    return shot.input_hashes(shot.run.fields, progress) | dict.fromkeys(names, identity)
 
 
 def _tiles(shot: Shot, view: str, name: str, find: tile_cut.Finder) -> dict[str, Any]:

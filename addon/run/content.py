@@ -72,6 +72,11 @@ def inputs(
     return result
 
 
+def field_names(run: Run) -> list[str]:
+    """List the names of a run's description and fields, as `inputs` has them."""
+    return [path.name for path in _fields(run, ())]
+
+
 def of_file(path: Path, cache: Path, progress: Progress = silent) -> str:
     """Hash a file outside a run, with the hash cached in `cache`."""
     place = cache / f"file-{fingerprint({'file': str(path.resolve())})}.json"

@@ -32,6 +32,8 @@ class ShotSource:
         Name of a comparison run to show in place of the first run.
     preset
         Output preset to apply (see `settings.output_presets`).
+    exposure
+        Exposure in stops that overrides the scene file's.
     """
 
     scene: str = ""
@@ -42,6 +44,7 @@ class ShotSource:
     smoke: str = ""
     beside: str = ""
     preset: str = ""
+    exposure: str = ""
 
     def plain(self) -> dict[str, str]:
         """Plain form, which `ShotSource(**plain)` takes."""
@@ -68,6 +71,9 @@ class ShotSource:
                 settings.render,
                 engine=self.engine or settings.render.engine,
                 device=self.device or settings.render.device,
+            ),
+            light=replace(
+                settings.light, exposure=float(self.exposure) if self.exposure else settings.light.exposure
             ),
             smoke=replace(settings.smoke, method=self.smoke or settings.smoke.method),
         )

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -77,10 +77,35 @@ class Writer:
             self.data.close()
 
 
+class Process:
+    """A model in a process of its own, which writes a time for each call of `append`."""
+
+    def __init__(self, path: Path, kind: str, factor: float = 1.0) -> None:
+        words = [sys.executable, __file__, path, kind, factor]
+        pipes = {name: subprocess.PIPE for name in ("stdin", "stdout", "stderr")}
+        self.process = subprocess.Popen([*map(str, words)], text=True, **pipes)
+
+    def append(self) -> None:
+        """Write the next time, and wait until it is written."""
+        self.process.stdin.write("\n")
+        self.process.stdin.flush()
+        assert self.process.stdout.readline() == "written\n", self.process.stderr.read()
+
+    def close(self) -> tuple[int, str, str]:
+        """Close the file; return the exit status and the remaining output."""
+        out, errors = self.process.communicate()
+        return self.process.returncode, out, errors
+
+    def kill(self) -> None:
+        """Kill the process in the middle of its run."""
+        self.process.kill()
+        self.process.communicate()
+
+
 if __name__ == "__main__":
     writer = Writer(Path(sys.argv[1]), sys.argv[2])
-    for _ in range(int(sys.argv[3])):
-        writer.append()
-        time.sleep(float(sys.argv[4]))
+    while sys.stdin.readline():
+        writer.append(float(sys.argv[3]))
+        print("written", flush=True)
     writer.close()
     print("closed", flush=True)

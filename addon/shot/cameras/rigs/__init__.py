@@ -72,6 +72,10 @@ class Rig:
         """Check it against the run: place in its table, and message after the camera's name; or None."""
         return None
 
+    def follows_fire(self) -> bool:
+        """Return whether its path depends on where the fire will be."""
+        return False
+
     def path(self, camera: CameraSettings, filming: Filming, ground: Any) -> Any:
         """Path of the camera through the shot (`path.Path`) over this `terrain.Terrain`."""
         raise NotImplementedError

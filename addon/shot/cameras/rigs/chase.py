@@ -40,6 +40,10 @@ class Chase(Lens):
         """Keep the distance and height above ground that the eye has from the centre of the view."""
         return cls(**view.lens, distance=max(view.away, 1.0), height=view.above)
 
+    def follows_fire(self) -> bool:
+        """Return whether its path depends on where the fire will be."""
+        return True
+
     def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Path at an offset from the head, which is smoothed over a fifth of the filming, looking at it."""
         target = targets.follow("head", ground, filming.frames.times, self.target_height)

@@ -89,6 +89,10 @@ class Drone(Lens):
         missed = read(self.track).missed(run, frames)
         return (("track",), f"follows {self.track.name}, which {missed}") if missed else None
 
+    def follows_fire(self) -> bool:
+        """Return whether its path depends on where the fire will be."""
+        return any(pose.target in targets.MOVING for pose in self.keys)
+
     def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Smooth path between keys or along its track, above the hills between, with its look-at points."""
         count = filming.frames.count

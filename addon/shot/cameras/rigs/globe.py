@@ -132,6 +132,10 @@ class Globe(Lens):
             return ("begin_longitude",), reason
         return None
 
+    def follows_fire(self) -> bool:
+        """Return whether its path depends on where the fire will be."""
+        return self._end().follows_fire()
+
     def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Flight from above the beginning to the last view, the view of a tour with one stop."""
         frame, part = ground.frame, self.parts(filming.frames.count)

@@ -129,6 +129,10 @@ class Tour(Lens):
             return ("stops",), reason
         return None
 
+    def follows_fire(self) -> bool:
+        """Return whether its path depends on where the fire will be."""
+        return any(stop.place == HEAD for stop in self.stops)
+
     def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Eased flight from stop to stop, raised smoothly above hills and ridges, looking at the places."""
         share = shares(self.stops, filming.frames.count)

@@ -1,0 +1,223 @@
+"""Follow job: renders the frames of a growing run as soon as the next model time exists.
+
+Each frame is rendered from the run as it was known at the next model time (`run.growing.known_run`), so that
+it equals the frame that is rendered when the model has ended.
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+from firetwin_core.run import Run
+
+from ..errors import Error, UsageError
+from ..progress import MessageCallback, Progress, count, duration, no_message, silent
+from ..run import content, readers, times
+from ..run.growing import known_run, watched
+from ..shot import frames
+from ..shot.frames import Frames
+from ..shot.light import exposure
+from ..shot.schema.frame_list import FrameList
+from ..shot.settings import Settings
+from ..shot.source import ShotSource
+from . import render, worker
+from .render import RenderRequest, RenderResult
+
+Wait = Callable[[float], None]
+_LATE = 60.0  # s without a sign of `firetwin watch`, after which that is reported
+
+
+@dataclass(frozen=True)
+class _Known:
+    """A growing run at a poll: its newest revision, whether times follow, and the identity of its film."""
+
+    run: Run
+    ended: bool
+    identity: str
+
+
+def run(
+    choice: ShotSource,
+    asked: RenderRequest,
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+    stop: worker.Stop | None = None,
+    every: float = 5.0,
+    wait: Wait = time.sleep,
+) -> RenderResult:
+    """Render frames while the run grows; return when all are rendered, or no times follow.
+
+    Parameters
+    ----------
+    every
+        Time between looks at the run, s.
+
+    Raises
+    ------
+    UsageError
+        The scene depends on later times, or has no end.
+    InputError, Error
+        As `render.run`.
+    """
+    settings = choice.settings()
+    _check(settings)
+    settings.cache.mkdir(parents=True, exist_ok=True)
+    said = ""
+    with tempfile.TemporaryDirectory(prefix="follow-", dir=settings.cache) as folder:
+        film = _Film(choice, asked, Path(folder), progress, tell, stop)
+        while True:
+            known, text = _look(settings), f"waiting for the first time in {settings.run}"
+            if known is not None:
+                groups, missing = _groups(settings, asked, known)
+                film.render(known, groups)
+                text = _describe_missing(known, missing) if missing else ""
+            text = "\n".join(each for each in (text, _describe_silence(settings.run)) if each)
+            if text != said:
+                for line in text.split("\n"):
+                    tell(line)
+                said = text
+            if known is not None and (known.ended or not missing):
+                return RenderResult(film.pictures, film.expected, film.peak)
+            wait(every)
+
+
+def _check(settings: Settings) -> None:
+    """Check that a frame depends on no time after the next one.
+
+    Raises
+    ------
+    UsageError
+        It does.
+    """
+    if settings.time.resolved().end is None and settings.time.frames > 1:
+        raise UsageError("--follow: the end of the run is not known; set time.end in the scene file")
+    if settings.runs:
+        raise UsageError("--follow: films one run; remove [[runs]]")
+    for camera in settings.cameras:
+        if camera.rig.follows_fire():
+            raise UsageError(
+                f'--follow: camera "{camera.name}" follows the fire, whose later places are not known; '
+                "give it a target by latitude and longitude"
+            )
+
+
+def _look(settings: Settings) -> _Known | None:
+    """Open the newest revision; None before the first time."""
+    folder = settings.run
+    if not watched.is_watched(folder):
+        run = readers.open(folder)
+        return _Known(run, True, content.fingerprint({"run": content.inputs(run, settings.cache)}))
+    ended = watched.is_final(folder)  # before the times, which may follow
+    accepted = watched.times(folder)
+    if not accepted:
+        if ended:
+            raise Error(f"{folder}: the model ended without a complete time")
+        return None
+    first = watched.last_generation(accepted)[0]
+    return _Known(readers.open(folder), ended, f"{first.generation} {first.time} {first.sha256}")
+
+
+def _groups(settings: Settings, asked: RenderRequest, known: _Known) -> tuple[dict[int, list[int]], int]:
+    """Group the requested frames by the number of times that they need; also count those that must wait."""
+    shown = _frames(settings, known.run)
+    try:
+        wanted = FrameList(asked.frames or "").frames(shown.count)
+    except ValueError as error:
+        raise UsageError(f"--frames: {error}") from None
+    known_times = np.asarray(known.run.times)
+    groups: dict[int, list[int]] = {}
+    for frame in wanted:
+        needed = known_run.next_time(known_times, shown.time(frame), known.ended)
+        groups.setdefault(needed, []).append(frame)
+    return groups, len(groups.pop(0, []))
+
+
+class _Film:
+    """Films the groups of frames of one request; each group is rendered once."""
+
+    def __init__(
+        self,
+        choice: ShotSource,
+        asked: RenderRequest,
+        folder: Path,
+        progress: Progress,
+        tell: MessageCallback,
+        stop: worker.Stop | None,
+    ) -> None:
+        self.choice, self.asked, self.folder = choice, asked, folder
+        self.progress, self.tell, self.stop = progress, tell, stop
+        self.settings = choice.settings()
+        self.identity, self.exposure = "", ""
+        self.rendered: set[int] = set()
+        self.pictures = self.expected = self.peak = 0
+
+    def render(self, known: _Known, groups: dict[int, list[int]]) -> None:
+        """Render the groups of a revision that are not rendered yet."""
+        if known.identity != self.identity:
+            if self.identity:
+                self.tell("the model started again; all frames are rendered from its new times")
+            self.identity, self.exposure = known.identity, ""
+            self.rendered.clear()
+        for needed, listed in sorted(groups.items()):
+            todo = [frame for frame in listed if frame not in self.rendered]
+            if todo:
+                self._render(known, needed, todo)
+                self.rendered.update(todo)
+
+    def _render(self, known: _Known, needed: int, listed: list[int]) -> None:
+        place = self.folder / self.settings.run.absolute().name
+        shutil.rmtree(place, ignore_errors=True)
+        end = _frames(self.settings, known.run).last
+        known_run.write(known.run, needed, end, place, known.identity)
+        choice = replace(self.choice, run=str(place))
+        if self.settings.light.exposure is None:
+            self.exposure = self.exposure or self._meter(choice)
+            choice = replace(choice, exposure=self.exposure)
+        asked = replace(self.asked, frames=",".join(map(str, listed)), resume=True)
+        made = render.run(choice, asked, self.progress, self.tell, self.stop)
+        self.pictures += made.pictures
+        self.expected, self.peak = max(self.expected, made.expected), max(self.peak, made.peak)
+
+    def _meter(self, choice: ShotSource) -> str:
+        """Meter the first frame; later frames keep this exposure, as later light is not known."""
+        shot = choice.shot()
+        stops = round(float(exposure.at(shot, np.array([1.0]))[0]), 3)
+        self.tell(f"exposure is fixed at {stops:g} stops, as metered in frame 1; light.exposure sets it")
+        return repr(stops)
+
+
+def _frames(settings: Settings, run: Run) -> Frames:
+    found = frames.resolve(settings.time, run)
+    if found.first < run.times[0]:
+        raise UsageError("--follow: time.start is before the first time of the run; change it")
+    return found
+
+
+def _describe_missing(known: _Known, missing: int) -> str:
+    """Describe the frames that wait, or that the run does not reach."""
+    newest = times.iso(times.utc(known.run, float(known.run.times[-1])))
+    if known.ended:
+        return f"the run ended at {newest}, before the film: {count(missing, 'frame')} not rendered"
+    return f"rendered up to {newest}; {count(missing, 'frame')} left, until the next model time exists"
+
+
+def _describe_silence(folder: Path) -> str:
+    """Return a warning if `firetwin watch` seems to have stopped; "" otherwise."""
+    status = watched.status(folder)
+    try:
+        age = time.time() - datetime.fromisoformat(status["updated"]).timestamp()
+        late = max(_LATE, 5.0 * float(status["every"]))
+    except (KeyError, TypeError, ValueError):
+        return ""
+    if status.get("state") in watched.FINAL or age < late:
+        return ""
+    return (
+        f"firetwin watch has not written to {folder} for {duration(age)}; if it has stopped, start it again"
+    )
