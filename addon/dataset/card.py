@@ -111,6 +111,8 @@ def _file_lines(folder: Path) -> Iterator[str]:
         if (folder / name).is_dir():
             yield f"`{name}/`: {content}"
     yield f"`{table.NAME}`: one row for each sample"
+    if (folder / "plan.json").is_file():
+        yield "`plan.json`: the plan, hashes of its runs, and versions that made the data set"
     for each in FORMATS.values():
         place, content = each.help.split(": ", 1)
         if (folder / place.split("/")[0]).is_dir():

@@ -42,6 +42,27 @@ def test_pycocotools_decodes_the_masks(made):
         np.testing.assert_array_equal(coco.annToMask(each), expected)
 
 
+def test_globox_reads_boxes_of_yolo_and_voc(made):
+    """Its corners of VOC are as written: from 1, inclusive."""
+    library = pytest.importorskip("globox")
+    folder, samples = made
+    yolo = library.AnnotationSet.from_yolo_v5(folder / "labels", image_folder=folder / "images")
+    voc = library.AnnotationSet.from_pascal_voc(folder / "voc" / "Annotations")
+    for truth in samples:
+        name = truth.files["images"].split("/")[1]
+        expected = np.array([each.box for each in truth.annotations]).reshape(-1, 4)
+        np.testing.assert_allclose(corners(yolo[name]), expected, atol=1e-4)
+        np.testing.assert_array_equal(corners(voc[name]) - [1.0, 1.0, 0.0, 0.0], expected)
+        assert [int(box.label) + 1 for box in yolo[name].boxes] == [
+            each.category for each in truth.annotations
+        ]
+
+
+def corners(picture):
+    found = [(box.xmin, box.ymin, box.xmax, box.ymax) for box in picture.boxes]
+    return np.array(found).reshape(-1, 4)
+
+
 def test_webdataset_reads_pictures_maps_and_metadata(made):
     library = pytest.importorskip("webdataset")
     folder, samples = made
@@ -69,14 +90,14 @@ def test_pycolmap_projects_a_landmark_to_one_pixel(made):
 
 
 def test_datasets_reads_the_image_folder(made, tmp_path):
-    library = pytest.importorskip("datasets")
+    library = pytest.importorskip("datasets", exc_type=ImportError)
     folder, samples = made
     found = library.load_dataset("imagefolder", data_dir=str(folder / "imagefolder"), cache_dir=str(tmp_path))
     compare_rows(found, samples)
 
 
 def test_datasets_reads_parquet_files(made, tmp_path):
-    library = pytest.importorskip("datasets")
+    library = pytest.importorskip("datasets", exc_type=ImportError)
     folder, samples = made
     formats.write(folder, samples, ["parquet"])
     paths = {split: str(folder / f"parquet/{split}-*.parquet") for split in ("train", "test")}

@@ -59,7 +59,11 @@ def _head(samples: Sequence[Truth]) -> dict[str, Any]:
         }
         for truth in samples
     ]
-    return {"info": {"description": "Synthetic wildfires of Firetwin", "version": "1"}, "images": images}
+    return {
+        "info": {"description": "Synthetic wildfires of Firetwin", "version": "1"},
+        "licenses": [],
+        "images": images,
+    }
 
 
 def _category(number: int, name: str) -> dict[str, Any]:
