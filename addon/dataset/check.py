@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ..errors import Error, InputError
-from ..progress import Progress, Reporter, count, result, silent
+from ..progress import Progress, silent
 from . import about, check_formats, check_labels, sums, truth, twins
 from .findings import RESUME, Finding, limited
 from .formats import common
@@ -31,16 +31,6 @@ def check(folder: Path, progress: Progress = silent) -> Iterator[Finding]:
         The folder has no samples.
     """
     yield from limited(_check(folder, progress))
-
-
-def run(folder: Path, reporter: Reporter) -> int:
-    """Print each finding on one line; returns 1 if there are faults, otherwise 0."""
-    faults = 0
-    for finding in check(folder, reporter):
-        result(finding.text)
-        faults += finding.is_fault
-    result(f"{folder}: {count(faults, 'fault') if faults else 'no faults'}")
-    return min(faults, 1)
 
 
 def _check(folder: Path, progress: Progress) -> Iterator[Finding]:

@@ -10,7 +10,6 @@ import plain_samples
 import pytest
 from firetwin.dataset import about, check, files, finish, formats, labels, sensor, sums, truth, twins
 from firetwin.errors import InputError
-from firetwin.progress import Reporter
 from firetwin.shot.passes import masks
 from PIL import Image
 
@@ -100,14 +99,6 @@ def test_files_of_work_are_not_a_part_of_the_set(folder):
     (folder / ".work").mkdir()
     (folder / ".work" / ".a.part.json").write_text("")
     assert not faults(folder)
-
-
-def test_the_exit_status_follows_the_faults(folder, capsys):
-    assert check.run(folder, Reporter("check")) == 0
-    assert capsys.readouterr().out.splitlines()[-1] == f"{folder}: no faults"
-    (folder / "notes.txt").write_text("mine")
-    assert check.run(folder, Reporter("check")) == 1
-    assert capsys.readouterr().out.splitlines()[-1] == f"{folder}: 1 fault"
 
 
 def test_missing_samples_are_found(folder):
