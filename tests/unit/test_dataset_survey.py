@@ -3,7 +3,12 @@
 import numpy as np
 import plain_samples
 import pytest
+import whole_run
 from firetwin.dataset import survey
+from firetwin.run import readers
+from firetwin.shot.sections import TerrainSettings, Time
+from firetwin.shot.settings import Settings
+from firetwin.shot.shot import Shot
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -133,3 +138,38 @@ def test_a_front_in_degrees_is_a_geometry_of_geojson():
     assert geometry["type"] == "MultiLineString"
     ((first, *_),) = geometry["coordinates"]
     assert first == pytest.approx([-120.6 - 200.0 / 86_900, 38.8 + 500.0 / 111_010], abs=2e-4)
+
+
+@pytest.fixture
+def circle(tmp_path):
+    """Make a shot of a fire that spreads as a circle, at 0.3 m/s from 60 s on."""
+    fires = {"fires": ((0.0, 0.0, 60.0),), "wind": (0.0, 0.0), "speed": 0.3}
+    run = readers.open(whole_run.write(tmp_path / "run", cells=80, cell=20.0, **fires))
+    terrain = TerrainSettings(near_radius=0.0, apron=500.0)
+    return Shot(Settings(path=tmp_path / "scene.toml", time=Time(frames=1), terrain=terrain), run)
+
+
+def test_the_front_of_a_run_is_its_circle_seen_from_above(circle):
+    place = survey.of_shot(circle, 1860.0)
+    camera = plain_samples.looking(-90.0, height=1500.0, fov=60.0, size=(640, 480))
+    (line,) = survey.front_in_picture(place, camera)
+    radius = camera.fx * 0.3 * 1800.0 / 1500.0
+    assert np.hypot(line[:, 0] - 320.0, line[:, 1] - 240.0) == pytest.approx(radius, rel=0.02)
+    assert place.ignition == pytest.approx(60.0, abs=20.0 / 0.3)
+    assert survey.of_shot(circle, 0.0).front == ()
+
+
+def test_ground_far_ahead_of_the_front_does_not_burn(circle):
+    place = survey.of_shot(circle, 1200.0)
+    reach = 0.3 * (1200.0 - 60.0 + 600.0)
+    away = np.array([0.0, 0.6, 0.95, 1.1, 1.4]) * reach
+    assert place.burns(away, np.zeros(5)).tolist() == [True, True, True, False, False]
+
+
+def test_a_simplified_front_deviates_by_a_few_metres(circle):
+    place = survey.of_shot(circle, 1860.0)
+    (line,) = place.geojson()["coordinates"]
+    assert len(line) < 0.5 * len(place.front[0])
+    longitude, latitude = np.array(line).T
+    x, y, _ = place.georeference.frame.forward(latitude, longitude, np.zeros(len(line))).T
+    assert np.hypot(x, y) == pytest.approx(540.0, rel=0.03)
