@@ -24,7 +24,7 @@ def describe(plan: Plan, cache: Path) -> dict[str, Any]:
     Parameters
     ----------
     cache
-        Folder in which hashes of runs are kept.
+        Folder that caches the hashes of runs.
     """
     from ..run import readers
 

@@ -20,6 +20,7 @@ RUN = (
     "tiles.md",
     "delivery.md",
     "forecasts.md",
+    "datasets.md",
     "export.md",
     "farm.md",
     "pipelines.md",

@@ -140,6 +140,14 @@ def test_the_commands_on_forecasts_run(folder, capsys):
     assert "How sure the forecast is" in Path("page.html").read_text("utf-8")
 
 
+def test_the_commands_on_data_sets_run(folder, capsys):
+    text = (ROOT / "docs/datasets.md").read_text("utf-8")
+    Path("PLAN.toml").write_text(next(each.code for each in blocks(text) if each.kind == "toml"))
+    assert [words[0] for words in run_page("docs/datasets.md")] == ["dataset"]
+    assert re.match(r"200 samples in \d+ scenes: about .*\nsplits by camera: ", capsys.readouterr().out)
+    assert not Path("DIR").exists()
+
+
 def test_the_commands_on_citing_run(folder, capsys):
     finish(folder / "FILM", {"run": content.inputs(readers.open(Path("small")), folder)})
     assert [words[0] for words in run_page("docs/citing.md")] == ["cite"] * 3

@@ -1,11 +1,16 @@
 """Plans of data sets: a short plan works, and each error has its line and a remedy."""
 
+import tomllib
+
 import pytest
 import small_plan
 from firetwin.dataset import imagery, plan_file
-from firetwin.dataset.distributions import DEFAULTS, Choice, Constant, LogNormal, LogUniform
+from firetwin.dataset.distributions import DEFAULTS, VALUES, Choice, Constant, LogNormal, LogUniform
+from firetwin.dataset.plan import Plan
 from firetwin.dataset.run_scene import settings_of
 from firetwin.errors import InputError
+from firetwin.shot.schema import fields
+from shown_code import ROOT, blocks
 
 SHORT = """\
 count = 200
@@ -136,3 +141,31 @@ def test_imagery_needs_a_licence_of_the_list(read, tmp_path, license, word):
     assert imagery.fault(plain, settings_of(plain)) is None
     found = imagery.fault(photographed, settings_of(photographed))
     assert found is None if word is None else word in found
+
+
+def test_the_example_shows_every_key_with_its_default(tmp_path):
+    text = (ROOT / "examples/dataset.toml").read_text()
+    example = tomllib.loads(text.replace('run = "out/sample"', f'run = "{tmp_path}"'))
+    assert set(example["draws"]) == set(VALUES)
+    (tmp_path / "plan.toml").write_text(text.replace("out/sample", str(tmp_path)))
+    plan = plan_file.read(tmp_path / "plan.toml")
+    bare = Plan(path=plan.path, runs=plan.runs, count=plan.count, seed=plan.seed)
+    assert plan == bare
+    for kind, table in ((plan_file._File, example), (plan_file._Run, example["runs"][0])):
+        assert {part.name for part in fields(kind)} <= {*table}
+    for name in ("cameras", "negatives", "splits"):
+        assert example[name] == getattr(bare, name)
+
+
+def test_plans_on_the_page_are_valid(tmp_path):
+    shown = [block.code for block in blocks((ROOT / "docs/datasets.md").read_text()) if block.kind == "toml"]
+    whole, *parts = shown
+    for name in ("RUN", "RUN2"):
+        (tmp_path / name).mkdir()
+    for part in ("", *parts):
+        assert plan_file.parse(whole + part, tmp_path / "PLAN.toml").count == 200
+
+
+def test_licences_on_the_page_are_those_of_the_list():
+    page = (ROOT / "docs/datasets.md").read_text()
+    assert [name for name in imagery.ALLOWED if name not in page] == []
