@@ -6,7 +6,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from ..errors import Error, InputError
+from ..errors import Error, InputError, input_error
 from ..progress import Progress, silent
 from . import about, check_formats, check_labels, sums, truth, twins
 from .findings import RESUME, Finding, limited
@@ -42,11 +42,9 @@ def _check(folder: Path, progress: Progress) -> Iterator[Finding]:
         except InputError as error:
             yield Finding("files", f"{error.reason}: {Path(error.path).relative_to(folder)}")
     if not samples:
-        raise InputError(
-            str(folder), f"has no samples (no {truth.FOLDER}/*.json); name the folder of a data set"
-        )
+        raise input_error(folder, f"has no samples (no {truth.FOLDER}/*.json); name the folder of a data set")
     yield from _files(folder, facts, samples)
-    yield from _hashes(folder)
+    yield from _hashes(folder, {path for sample in samples for path in sample.files.values()})
     prints = []
     for done, sample in enumerate(samples):
         progress(done, len(samples))
@@ -54,6 +52,8 @@ def _check(folder: Path, progress: Progress) -> Iterator[Finding]:
         yield from found
         if mark is not None:
             prints.append(mark)
+        if not all((folder / path).is_file() for path in sample.files.values()):
+            continue
         try:
             yield from check_labels.check(folder, sample)
         except Error as error:
@@ -82,8 +82,8 @@ def _files(folder: Path, facts: about.About, samples: Sequence[Truth]) -> Iterat
                 yield Finding("files", f"{path}: {state}; {RESUME.format(path=meta, folder=folder)}")
 
 
-def _hashes(folder: Path) -> Iterator[Finding]:
-    """Compare the files with SHA256SUMS."""
+def _hashes(folder: Path, known: set[str]) -> Iterator[Finding]:
+    """Compare the files with SHA256SUMS, except missing ones of samples, which `_files` reports."""
     again = f"if the change is wanted, compute the hashes again: firetwin dataset formats {folder}"
     if not (folder / sums.NAME).is_file():
         yield Finding(
@@ -91,7 +91,7 @@ def _hashes(folder: Path) -> Iterator[Finding]:
         )
         return
     listed, present = sums.read(folder), set(sums.paths(folder))
-    for path in sorted(set(listed) - present):
+    for path in sorted(set(listed) - present - known):
         yield Finding("hashes", f"{path}: is in {sums.NAME} and missing; restore it, or {again}")
     for path in sorted(present - set(listed)):
         yield Finding("hashes", f"{path}: is not in {sums.NAME}; remove it, or {again}")

@@ -240,8 +240,14 @@ def test_many_faults_of_a_kind_end_with_their_number(folder):
 
 
 def test_a_folder_without_samples_is_explained(tmp_path):
-    with pytest.raises(InputError, match="has no samples"):
+    with pytest.raises(InputError, match="has no samples") as caught:
         list(check.check(tmp_path))
+    assert str(caught.value).startswith(f"{tmp_path}: has no samples")
+
+
+def test_a_missing_file_is_one_fault(folder):
+    (folder / files.name("alpha", 2)).unlink()
+    only(folder, "alpha/000002.png: is missing", "delete meta/000002.json")
 
 
 def test_samples_that_the_labels_and_the_sensors_wrote_have_no_faults(tmp_path):
