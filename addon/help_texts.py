@@ -136,7 +136,7 @@ Save it, and refer to it in the first line of a scene file (`#:schema firetwin.j
 complete keys, show their help and underline mistakes."""
 
 BENCH = """\
-Measures eleven steps and their alternatives in turn on this machine: median and range of at least five
+Measures twelve steps and their alternatives in turn on this machine: median and range of at least five
 repetitions. Takes about three CPU minutes. --runs 3 shows the variation between runs.
 Alternatives that are not installed are listed and skipped (pip install 'firetwin[bench]' installs them).
 The exit status is 1 if a target is missed."""

@@ -1,4 +1,4 @@
-"""Benchmarks of ``firetwin bench``: run time and error of the eleven steps that users wait for.
+"""Benchmarks of ``firetwin bench``: run time and error of the twelve steps that users wait for.
 
 A subject is a module: the first line of its docstring describes the comparison, and ``run(bench)`` adds rows
 (`Bench.race` runs the tools in turns) and targets. Benchmarks for developers are in ``tests/benchmarks``.
@@ -27,6 +27,7 @@ SUBJECTS = (
     "march",
     "motion",
     "radiometry",
+    "ensembles",
 )
 """Subjects in the order of the report."""
 

@@ -8,7 +8,18 @@ from functools import partial
 import firetwin.bench
 import numpy as np
 import pytest
-from firetwin.bench import SUBJECTS, emitters, forest, interpolation, radiometry, smoke, table, text, timing
+from firetwin.bench import (
+    SUBJECTS,
+    emitters,
+    ensembles,
+    forest,
+    interpolation,
+    radiometry,
+    smoke,
+    table,
+    text,
+    timing,
+)
 from firetwin.bench.harness import Bench
 from firetwin.bench.timing import Times
 from firetwin_core import sensor
@@ -124,6 +135,14 @@ def test_every_subject_says_what_it_compares():
         subject = importlib.import_module(f"firetwin.bench.{name}")
         assert subject.__doc__.partition("\n")[0].endswith(".")
         assert callable(subject.run)
+
+
+def test_ensembles_agree_with_numpy(tmp_path):
+    found = ensembles.make(tmp_path / "ensemble", 12, 30)
+    arrival = np.load(found.path / "arrival.npy")
+    for step, made in zip(ensembles.NUMPY, ensembles.compute(found), strict=True):
+        np.testing.assert_allclose(ensembles.NUMPY[step](arrival, found.areas), made, atol=5e-6)
+    assert np.isinf(arrival).any()
 
 
 def test_all_subjects_run_as_often_as_asked(monkeypatch):

@@ -137,6 +137,31 @@ def test_depth_by_hand(tmp_path):
     np.testing.assert_allclose(statistics.depths(made, 24.0), expected, atol=1e-3)
 
 
+def test_depths_are_means_over_pairs(tmp_path):
+    """Sums over cells equal the definition by pairs, with an empty, a short and a partly simulated member."""
+    rng = np.random.default_rng(5)
+    centre = rng.uniform(-3, 3, (9, 2, 1, 1))
+    arrival = np.hypot(*(np.mgrid[-8:9, -8:9] - centre).swapaxes(0, 1)) * rng.uniform(2, 6, (9, 1, 1))
+    arrival[arrival > 24] = NEVER
+    arrival[3], arrival[5, :4], arrival[6, 8:] = NEVER, np.nan, NEVER
+    made = make(tmp_path, arrival)
+    for time in (-1.0, 8.0, 24.0):
+        common = statistics.overlaps(made, time)
+        own = np.diag(common)[:, None]
+        inside = np.divide(common, own, out=np.ones_like(common), where=own > 0)
+        np.fill_diagonal(inside, 0.0)
+        expected = np.minimum(inside.sum(0), inside.sum(1)) / 8
+        np.testing.assert_allclose(statistics.depths(made, time), expected, atol=1e-6)
+
+
+def test_a_file_that_becomes_shorter_is_an_error(tmp_path):
+    made = make(tmp_path, np.ones((3, 4, 5)))
+    with (made.path / ensemble.ARRIVAL).open("r+b") as file:
+        file.truncate(file.seek(0, 2) - 4)
+    with pytest.raises(InputError, match="arrival"):
+        list(made.blocks())
+
+
 def test_members_that_fail_are_named_and_not_counted(tmp_path):
     head = Manifest("test", "", ISSUED, 24.0, (), (LeftOut("00", "failed"),))
     members = [(Member("01"), np.ones((1, 2), np.float32)), (Member("02"), "is empty")]

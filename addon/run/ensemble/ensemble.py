@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,20 +116,21 @@ class Ensemble:
         """
         members, rows, columns = self.shape
         step = max(1, _BLOCK // (members * columns))
-        start = self._array().offset
-        with reading(self.path / ARRIVAL, "NumPy file"), (self.path / ARRIVAL).open("rb", buffering=0) as file:
+        path = self.path / ARRIVAL
+        with reading(path, "NumPy file"), path.open("rb", buffering=0) as file:
+            start = self._array().offset
             for first in range(0, rows, step):
                 these = slice(first, min(first + step, rows))
                 found = np.empty((members, these.stop - first, columns), np.float32)
                 for member in range(members):
                     file.seek(start + 4 * columns * (member * rows + first))
-                    if file.readinto(found[member]) != found[member].nbytes:  # type: ignore[arg-type]
-                        raise input_error(self.path / ARRIVAL, "is shorter than before; convert it again")
+                    if file.readinto(found[member]) != found[member].nbytes:
+                        raise input_error(path, "has become shorter; convert the ensemble again")
                 yield these, found
 
-    def _array(self) -> NDArray[np.float32]:
+    def _array(self) -> np.memmap[Any, np.dtype[np.float32]]:
         """Map the arrival times (m, ny, nx); pages that were read are released with the array."""
-        return np.load(self.path / ARRIVAL, mmap_mode="r")
+        return cast(Any, np.load(self.path / ARRIVAL, mmap_mode="r"))
 
 
 def sniff(path: Path) -> bool:

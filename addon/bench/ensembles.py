@@ -1,0 +1,131 @@
+"""Shares, quantiles and depths of forecast members, compared with NumPy on all members at once.
+
+The members are ellipses with random sizes and directions. NumPy computes shares as means, quantiles of
+definition 1 (`inverted_cdf`), and depths from the common areas of all pairs of members. Its arrays are in
+memory; firetwin's are read from the disk. The peak memory is of a process that computes all three.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import memory
+from ..jobs import worker
+from ..progress import MessageCallback, Progress, no_message, silent
+from ..run.ensemble import ensemble, statistics, write
+from ..run.ensemble.ensemble import Ensemble
+from ..run.ensemble.manifest import Manifest, Member
+from .harness import OURS, Bench
+from .timing import Runner
+
+HORIZON = 86_400.0  # s
+MOMENTS = np.linspace(HORIZON / 8, HORIZON, 8)
+LEVELS = (0.1, 0.5, 0.9)
+CASES = ((20, 720), (100, 720), (1000, 120))  # members, cells along a side
+
+
+def members(count: int, side: int) -> Iterator[tuple[Member, NDArray[np.float32]]]:
+    """Make members whose fire spreads as an ellipse, s; inf after the horizon."""
+    y, x = np.mgrid[0:side, 0:side].astype(np.float32) / side - 0.5
+    rng = np.random.default_rng(1)
+    for index in range(count):
+        angle, ratio, speed = rng.uniform(0.0, 0.8), rng.uniform(0.3, 0.7), rng.uniform(0.5, 1.5)
+        along, across = x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle)
+        arrival = np.hypot(along, across / ratio) * (2.0 * HORIZON / speed)
+        yield Member(str(index)), np.where(arrival > HORIZON, np.inf, arrival).astype(np.float32)
+
+
+def make(folder: Path, count: int, side: int) -> Ensemble:
+    """Write an ensemble of cells of 0.001 degrees, and open it."""
+    head = Manifest("bench", "", datetime(2014, 9, 17, tzinfo=UTC), HORIZON, (), synthetic=True)
+    axis = 0.001 * np.arange(side)
+    write.write(folder, head, 38.5 + axis, -120.5 + axis, members(count, side))
+    return ensemble.open(folder)
+
+
+def compute(found: Ensemble) -> tuple[NDArray, NDArray, NDArray]:
+    """Compute shares, quantiles and depths."""
+    shares = statistics.shares(found, MOMENTS).share
+    return shares, statistics.quantiles(found, LEVELS), statistics.depths(found, HORIZON)
+
+
+def numpy_shares(arrival: NDArray, _: NDArray) -> NDArray:
+    """Compute shares (nt, ny, nx) of arrival times (m, ny, nx)."""
+    return np.stack([(arrival <= moment).mean(0) for moment in MOMENTS])
+
+
+def numpy_quantiles(arrival: NDArray, _: NDArray) -> NDArray:
+    """Compute quantiles (k, ny, nx) of arrival times (m, ny, nx)."""
+    return np.quantile(arrival, LEVELS, axis=0, method="inverted_cdf")
+
+
+def numpy_depths(arrival: NDArray, area: NDArray) -> NDArray:
+    """Compute epsilon inclusion depths (m,) from the common area of each pair; no member may be empty."""
+    inside = (arrival <= HORIZON).reshape(len(arrival), -1).astype(np.float32)
+    common = (inside * area.ravel().astype(np.float32)) @ inside.T
+    share = common / np.diag(common)[:, None]
+    return (np.minimum(share.sum(0), share.sum(1)) - 1.0) / (len(arrival) - 1)
+
+
+NUMPY = {"shares": numpy_shares, "quantiles": numpy_quantiles, "depths": numpy_depths}
+
+
+def run(bench: Bench) -> None:
+    """Measure run time and memory for 20, 100 and 1,000 members, and compare 1,000 members with NumPy."""
+    per_value = {}
+    for count, side in CASES:
+        with tempfile.TemporaryDirectory() as folder:
+            found = make(Path(folder) / "ensemble", count, side)
+            case = f"{count:,} members of {side} x {side}"
+            seconds = _rows(bench, found, case, numpy=count == CASES[-1][0])
+            per_value[count] = [each / (count * side * side) for each in seconds]
+            if count == 100:
+                bench.target(f"Time of the three, {case}", seconds, 3.0, "s", most=True)
+                peak = worker.run(f"{__name__}:peak_of", {"folder": str(found.path)}, blender=False)
+                if peak:  # known
+                    bench.target(f"Peak memory of a process, {case}", peak / 1e6, 300.0, "MB", most=True)
+    growth = [many / few for few, many in zip(per_value[20], per_value[1000], strict=False)]
+    bench.target("Time per value, 1,000 members / 20 members", growth, 2.0, "x", most=True)
+
+
+def _rows(bench: Bench, found: Ensemble, case: str, numpy: bool) -> list[float]:
+    """Time the three statistics, and NumPy's; return the sums of firetwin's seconds in each repetition."""
+    arguments = {"shares": MOMENTS, "quantiles": LEVELS, "depths": HORIZON}
+    arrival = np.load(found.path / ensemble.ARRIVAL) if numpy else np.empty(0)
+    taken = []
+    for step, argument in arguments.items():
+        compute = partial(getattr(statistics, step), found, argument)
+        runners = [Runner(OURS, compute)]
+        if numpy:
+            theirs = partial(NUMPY[step], arrival, found.areas)
+            made = compute()
+            error = _difference(made.share if isinstance(made, statistics.Shares) else made, theirs())
+            runners.append(Runner("NumPy", theirs))
+            bench.target(f"Largest difference from NumPy, {step}", error, 5e-6, "", most=True)
+        times = bench.race(f"{step}, {case}", runners, int(np.prod(found.shape)), "value")
+        if step == "depths" and numpy:
+            speed = times[OURS].faster_than(times["NumPy"])
+            bench.target(f"Speed of depths / areas of all pairs, {case}", speed, 2.0, "x")
+        taken.append(times[OURS].seconds)
+    return [sum(each) for each in zip(*taken, strict=False)]
+
+
+def _difference(ours: NDArray, theirs: NDArray) -> float:
+    """Return the largest absolute difference; infinite values must be equal."""
+    finite = np.isfinite(theirs)
+    if not np.array_equal(ours[~finite], theirs[~finite]):
+        return np.inf
+    return float(np.abs(ours[finite] - theirs[finite]).max())
+
+
+def peak_of(folder: str, progress: Progress = silent, tell: MessageCallback = no_message) -> int:
+    """Compute the three statistics in a worker process; return its peak memory, bytes."""
+    compute(ensemble.open(Path(folder)))
+    return memory.peak()
