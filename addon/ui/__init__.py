@@ -17,6 +17,7 @@ from . import (
     foreign,
     former_names,
     go_to,
+    growing_run,
     keymap,
     manual,
     maps,
@@ -113,6 +114,7 @@ def unregister() -> None:
     working.cancel_task()
     queue.clear()
     vr.unregister()
+    growing_run.stop()
     feature_panels.unregister()
     maps.clear()
     tile_credits.unregister()

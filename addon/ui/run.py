@@ -12,9 +12,21 @@ import bpy
 
 from ..blender import owned
 from ..jobs.worker import StoppedError
+from ..progress import count
 from ..run import readers
 from ..shot.settings import scene_file as file
-from . import auto_framing, changed_settings, choice, job, maps, preferences, scene_file, solve, working
+from . import (
+    auto_framing,
+    changed_settings,
+    choice,
+    growing_run,
+    job,
+    maps,
+    preferences,
+    scene_file,
+    solve,
+    working,
+)
 from .job import InThread, Steps
 from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
@@ -89,6 +101,7 @@ def inspect_run(uid: int) -> Steps:
     try:
         found, images = yield InThread("reading the run", lambda **_: collect_facts(folder))
         owned.scene(uid).firetwin.facts = json.dumps(found)
+        growing_run.start(folder)
         auto_framing.apply_framing(owned.scene(uid).firetwin, found["fits"])
         maps.show(owned.scene(uid).firetwin.run, images)
         yield from auto_framing.reframe(uid)
@@ -171,7 +184,17 @@ class FIRETWIN_PT_run(SidebarPanel, bpy.types.Panel):
             box = layout.box().column(align=True)
             draw_paragraph(context, box, settings.problem, "ERROR")
             working.draw_copy_button(box, settings.problem)
+        _draw_growth(context, column, Path(bpy.path.abspath(settings.run)))
         maps.draw(layout, settings.run)
+
+
+def _draw_growth(context: bpy.types.Context, layout: bpy.types.UILayout, folder: Path) -> None:
+    """Draw the state of a growing run, and a button to read its new times."""
+    if text := growing_run.describe(folder):
+        draw_paragraph(context, layout.column(align=True), text, "TIME")
+    if new := growing_run.new_times(folder):
+        label = f"Read {count(new, 'new time')}"
+        layout.operator(FIRETWIN_OT_inspect.bl_idname, text=label, icon="FILE_REFRESH")
 
 
 def _draw_hint(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:

@@ -62,11 +62,11 @@ def key(panel: bpy.types.PropertyGroup) -> Key | None:
     if not panel.stations.file:
         return None
     file, run = Path(bpy.path.abspath(panel.stations.file)), None
-    if panel.run and (folder := Path(bpy.path.abspath(panel.run))).joinpath("run.toml").is_file():
+    if panel.run and readers.folder.sniff(folder := Path(bpy.path.abspath(panel.run))):
         run = folder
     try:
         changed = file.stat().st_mtime_ns
-        return Key(file, changed, run, run.joinpath("run.toml").stat().st_mtime_ns if run else 0)
+        return Key(file, changed, run, readers.folder.changing_file(run).stat().st_mtime_ns if run else 0)
     except OSError:
         return None
 

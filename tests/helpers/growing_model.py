@@ -78,7 +78,7 @@ class Writer:
 
 
 class Process:
-    """A model in a process of its own, which writes a time for each call of `append`."""
+    """A model in a separate process, which writes a time for each call of `append`."""
 
     def __init__(self, path: Path, kind: str, factor: float = 1.0) -> None:
         words = [sys.executable, __file__, path, kind, factor]

@@ -1,4 +1,4 @@
-"""`firetwin watch` beside a model's process, and frames of a film that follows it."""
+"""`firetwin watch` next to a model's process, and frames of a film that follows it."""
 
 from datetime import UTC, datetime, timedelta
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Known runs: what a frame of a growing run depends on."""
+"""Known runs: inputs of a frame of a growing run."""
 
 import tomllib
 

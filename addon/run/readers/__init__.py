@@ -18,6 +18,7 @@ from firetwin_core.run import Run
 from ... import limits
 from ...errors import Error, input_error, reading
 from .. import times
+from ..growing import watched
 from . import folder
 
 MODELS = ("wrf_sfire", "cfbm", "forefire", "elmfire", "farsite", "pyretechnics", "masks", "netcdf_cf")
@@ -39,6 +40,8 @@ def open(path: str | Path) -> Run:
         if not folder.sniff(path) and foreign(path):
             reason = f"is a fire model's own output; make a run of it: firetwin convert {path} --out RUN"
             raise input_error(path, reason)
+        if watched.is_watched(path) and not folder.sniff(path):
+            raise input_error(path, "has no complete time yet; wait for firetwin watch")
         found = folder.open(path) if folder.sniff(path) else run.open(path)  # which reports errors
         _check_years(found)
         return found

@@ -20,6 +20,12 @@ def sniff(path: Path) -> bool:
     return (path / "run.toml").is_file() or (path / watched.TIMES).is_file()
 
 
+def changing_file(path: Path) -> Path:
+    """Return the file of a run that changes with the run."""
+    description = path / "run.toml"
+    return description if description.is_file() else path / watched.TIMES
+
+
 def open(path: Path) -> Run:
     """Open the run."""
     if not (path / "run.toml").is_file() and (newest := watched.newest(path)):

@@ -1,0 +1,110 @@
+"""Growing run in the window: state and new times, read in a thread every few seconds, never while drawing."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+
+from ..run.growing import watched
+from . import working
+
+_PERIOD = 5.0  # s between readings
+_SHORT = 0.5  # s between checks of the thread
+
+
+@dataclass(frozen=True)
+class Growth:
+    """State of a watched folder.
+
+    Attributes
+    ----------
+    state
+        As in ``status.json``.
+    revision
+        Generation of the run, and its number of times.
+    newest
+        Newest model time; "" before the first.
+    """
+
+    state: str
+    revision: tuple[int, int]
+    newest: str
+
+
+_read: dict[Path, Growth] = {}
+_latest: dict[Path, Growth] = {}
+_thread: threading.Thread | None = None
+_folder: Path | None = None
+
+
+def start(folder: Path) -> None:
+    """Note the times of a run that was read, and look for new ones until the model has ended."""
+    global _folder
+    _folder = folder if watched.is_watched(folder) else None
+    if _folder is None:
+        return
+    _read[folder] = _latest[folder] = _look(folder)
+    if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.register(_tick, first_interval=_PERIOD)
+
+
+def stop() -> None:
+    """Stop looking, and forget all states."""
+    global _folder
+    _folder = None
+    if bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.unregister(_tick)
+    _read.clear()
+    _latest.clear()
+
+
+def describe(folder: Path) -> str:
+    """Describe a growing run in one line; "" for other runs."""
+    growth = _latest.get(folder)
+    if growth is None:
+        return ""
+    return f"The model is {growth.state}; newest time {growth.newest}" if growth.newest else "No time yet"
+
+
+def new_times(folder: Path) -> int:
+    """Return the number of times that came after the run was read; all of them if the model started again."""
+    growth, read = _latest.get(folder), _read.get(folder)
+    if growth is None or read is None or growth.revision == read.revision:
+        return 0
+    before = read.revision[1] if read.revision[0] == growth.revision[0] else 0
+    return growth.revision[1] - before
+
+
+def _look(folder: Path) -> Growth:
+    accepted = watched.times(folder)
+    state = str(watched.status(folder).get("state", "unknown"))
+    if not accepted:
+        return Growth(state, (0, 0), "")
+    last = accepted[-1]
+    return Growth(state, (last.generation, last.revision), f"{last.moment:%Y-%m-%d %H:%M} UTC")
+
+
+def _tick() -> float | None:
+    global _thread
+    if _folder is None:
+        return None
+    if _thread is None:
+        _thread = threading.Thread(target=_look_in_thread, args=(_folder,), name="Firetwin run", daemon=True)
+        _thread.start()
+        return _SHORT
+    if _thread.is_alive():
+        return _SHORT
+    _thread = None
+    working.redraw()
+    found = _latest.get(_folder)
+    return _PERIOD if found is not None and found.state not in watched.FINAL else None
+
+
+def _look_in_thread(folder: Path) -> None:
+    try:
+        _latest[folder] = _look(folder)
+    except Exception:  # such as a folder that was removed; the state stays
+        return
