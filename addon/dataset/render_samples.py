@@ -138,7 +138,6 @@ def _camera(shot: Shot) -> Camera:
     width, height = shot.settings.render.resolution
     to_world = np.eye(4)
     to_world[:3, :3], to_world[:3, 3] = view.rotation[0], view.position[0]
-    latitude, longitude, above = (float(part[0]) for part in shot.local_frame.reverse(view.position[:1]))
     return Camera(
         to_world=to_world,
         fx=0.5 * width / view.half[0],
@@ -147,7 +146,4 @@ def _camera(shot: Shot) -> Camera:
         cy=0.5 * height,
         width=width,
         height=height,
-        latitude=latitude,
-        longitude=longitude,
-        ellipsoidal_height=above,
     )

@@ -28,8 +28,6 @@ class Camera:
         Focal lengths and principal point, pixels; the centre of the first pixel is (0.5, 0.5).
     width, height
         Size of the picture, pixels.
-    latitude, longitude, ellipsoidal_height
-        WGS84, degrees and m.
     """
 
     to_world: NDArray[np.float64]
@@ -39,9 +37,6 @@ class Camera:
     cy: float
     width: int
     height: int
-    latitude: float
-    longitude: float
-    ellipsoidal_height: float
 
 
 @dataclass(frozen=True)

@@ -85,7 +85,8 @@ class SampleEye(Eye):
         high, low = through[rows, before], through[rows, after]
         part = np.clip((high - half[:, 0]) / np.maximum(high - low, 1.0e-6), 0.0, 1.0)
         coarse = np.full(seen.shape, np.inf, np.float32)
-        coarse[seen] = at[rows, before] + part * (at[rows, after] - at[rows, before])
+        away = at[rows, before] + part * (at[rows, after] - at[rows, before])
+        coarse[seen] = np.where(through[:, -1] < 1.0 - 0.5 * _SEEN, away, np.inf)
         height, width = self.shape
         found = np.repeat(np.repeat(coarse, _SPARSE, axis=0), _SPARSE, axis=1)[:height, :width]
         return np.where(clear < 1.0 - _SEEN, found, np.inf).astype(np.float32)

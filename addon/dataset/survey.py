@@ -98,8 +98,12 @@ def of_shot(shot: Shot, time: float) -> Place:
 def _front(ground: Terrain, time: float) -> tuple[Line, ...]:
     """Trace the front of the ground as drawn, at a model time, s.
 
-    It differs from the run's front in the unburned islands that the terrain of a synthetic run invents.
+    It differs from the run's front in the unburned islands that the terrain of a synthetic run invents. There
+    is no front after the last ground has burned out.
     """
+    last = np.max(ground.burn_time, initial=-np.inf, where=ground.burned >= 0.5)
+    if time > last + BURN_TIME:
+        return ()
     ahead = np.maximum(ground.burn_time - time, _ISLAND * (0.5 - ground.burned))
     near = box(ahead <= 0.0, more=1)
     if near is None:

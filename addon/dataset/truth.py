@@ -175,9 +175,9 @@ class Truth:
     below_size
         Smaller and completely hidden instances; they are in no mask, and their ids follow.
     front
-        Visible parts of the fire front, polylines of pixels.
+        Visible parts of the outline of burned ground while it grows, moving or not; polylines of pixels.
     front_geojson
-        Complete front as a GeoJSON geometry (RFC 7946), degrees east and north; None without fire.
+        Complete outline as a GeoJSON geometry (RFC 7946), degrees east and north; None without fire.
     horizon
         Border between sky and solid surfaces without smoke, polylines of pixels.
     groups

@@ -24,7 +24,7 @@ def looking(
     to_world = np.eye(4)
     to_world[:3, :3] = np.column_stack([right, np.cross(right, ahead), -ahead])
     to_world[:3, 3] = 0.0, 0.0, height
-    return Camera(to_world, focal, focal, 0.5 * width, 0.5 * rows, width, rows, 38.8, -120.6, height)
+    return Camera(to_world, focal, focal, 0.5 * width, 0.5 * rows, width, rows)
 
 
 def directions(camera: Camera) -> np.ndarray:

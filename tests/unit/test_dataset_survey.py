@@ -157,6 +157,8 @@ def test_the_front_of_a_run_is_its_circle_seen_from_above(circle):
     assert np.hypot(line[:, 0] - 320.0, line[:, 1] - 240.0) == pytest.approx(radius, rel=0.02)
     assert place.ignition == pytest.approx(60.0, abs=20.0 / 0.3)
     assert survey.of_shot(circle, 0.0).front == ()
+    assert survey.of_shot(circle, 4000.0).front
+    assert survey.of_shot(circle, 4300.0).front == ()  # the last cell burns from 3600 s for 10 minutes
 
 
 def test_ground_far_ahead_of_the_front_does_not_burn(circle):
