@@ -2,6 +2,7 @@
 
 import json
 import tarfile
+from unittest.mock import Mock
 
 import labelled
 import numpy as np
@@ -175,7 +176,11 @@ def test_names_of_formats_are_explained(monkeypatch):
     assert set(formats.names("all")) >= set(NAMES)
     with pytest.raises(UsageError, match='no format "kitti"; choose from coco, yolo'):
         formats.names("kitti")
-    monkeypatch.setattr(formats.importlib.util, "find_spec", lambda name: None)
-    assert "parquet" not in formats.names("all")
-    with pytest.raises(UsageError, match="pip install pyarrow"):
-        formats.names("parquet")
+    for error, words in (
+        (ModuleNotFoundError("No module named 'pyarrow'"), "pip install pyarrow"),
+        (ImportError("needs NumPy 2"), "does not load: needs NumPy 2; install another version"),
+    ):
+        monkeypatch.setattr(formats.importlib, "import_module", Mock(side_effect=error))
+        assert "parquet" not in formats.names("all")
+        with pytest.raises(UsageError, match=words):
+            formats.names("parquet")

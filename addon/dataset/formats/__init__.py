@@ -7,7 +7,6 @@ after all of it is written (see `staging`). So paths in its files are relative t
 from __future__ import annotations
 
 import importlib
-import importlib.util
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -58,17 +57,16 @@ def names(text: str) -> tuple[str, ...]:
     Raises
     ------
     UsageError
-        A format is unknown, or its package is missing.
+        A format is unknown, or its package is missing or does not load.
     """
     if text == "all":
-        return tuple(name for name in FORMATS if _is_usable(name))
+        return tuple(name for name in FORMATS if not _fault(name))
     found = tuple(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
     for name in found:
         if name not in FORMATS:
             raise UsageError(f'there is no format "{name}"; choose from {", ".join(FORMATS)}, all')
-        if not _is_usable(name):
-            package = FORMATS[name].package
-            raise UsageError(f"the format {name} needs {package}; install it with: pip install {package}")
+        if fault := _fault(name):
+            raise UsageError(fault)
     return found
 
 
@@ -90,6 +88,14 @@ def write(set_folder: Path, samples: Sequence[Truth], formats: Iterable[str]) ->
             writer(name)(set_folder, samples, out)
 
 
-def _is_usable(name: str) -> bool:
+def _fault(name: str) -> str:
+    """Return why a format cannot be written: its package is missing, or needs another NumPy. "" if it can."""
     package = FORMATS[name].package
-    return not package or importlib.util.find_spec(package) is not None
+    try:
+        if package:
+            importlib.import_module(package)
+    except ModuleNotFoundError:
+        return f"the format {name} needs {package}; install it with: pip install {package}"
+    except ImportError as error:
+        return f"the format {name} needs {package}, which does not load: {error}; install another version"
+    return ""

@@ -8,7 +8,6 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from ...errors import UsageError
 from ..truth import Truth
 from . import common, hf
 
@@ -20,11 +19,8 @@ _ROWS = 100  # of a group
 
 def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
     """Write the files of each split."""
-    try:
-        import pyarrow as pa
-        import pyarrow.parquet as pq
-    except ImportError as error:  # of another version of NumPy, for example
-        raise UsageError(f"pyarrow does not load: {error}; install a version that does") from None
+    import pyarrow as pa
+    import pyarrow.parquet as pq
 
     (out / FOLDER).mkdir()
     schema = _schema(pa)
