@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 SIDE = 16  # rows of the small picture, which has one more column
 MOST_BITS = 12  # of 256 that differ between near copies (by eye)
 MOST_DIFFERENCE = 4.0  # mean difference of grey values 0..255 between near copies (by eye)
-PLAIN = 3.0  # standard deviation of grey values, below which a picture has too little content to compare
+PLAIN = 3.0  # standard deviation of grey values along rows, below which pictures are not compared (by eye)
 _ROWS = 512  # of a block
 
 
@@ -32,8 +32,8 @@ class Fingerprint:
 
     @property
     def is_plain(self) -> bool:
-        """True if the picture is too even to be compared, such as a night without lights."""
-        return float(self.grey.std()) < PLAIN
+        """True if the picture is too even along its rows, such as a night without lights or a sky in fog."""
+        return float((self.grey - self.grey.mean(axis=1, keepdims=True)).std()) < PLAIN
 
 
 def grey(path: Path) -> NDArray[np.float32]:
