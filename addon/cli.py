@@ -286,6 +286,21 @@ def _parser() -> argparse.ArgumentParser:
         help="observed perimeters to draw (RUN/observations)",
     )
 
+    haze = command("haze", "read the smoke of a weather forecast for a scene's haze", help_texts.HAZE)
+    haze.add_argument("run", metavar="RUN", type=types.path, help="run folder")
+    haze.add_argument(
+        "forecast", metavar="GRIB2", nargs="+", type=types.path, help="files of HRRR, one per hour"
+    )
+    haze.add_argument(
+        "--time",
+        metavar="TIME",
+        type=types.moment,
+        help="time of the scene, such as 2014-09-17T16:00-07:00 (the one nearest to mid-run)",
+    )
+    haze.add_argument(
+        "--out", metavar="DIR", type=types.path, help="folder for a map of the smoke's column mass"
+    )
+
     score = command("score", "score a run against observations of its fire", help_texts.SCORE)
     score.add_argument(
         "run",

@@ -99,6 +99,27 @@ def maps(arguments: argparse.Namespace) -> None:
         result(path)
 
 
+def haze(arguments: argparse.Namespace) -> None:
+    """Read the smoke of a weather forecast over a run, for the haze of a scene."""
+    run = _open_run(arguments.run)
+    from .run import times, zone
+    from .shot.light import smoke_forecast
+
+    clock = zone.time_zone(run)
+    smokes = smoke_forecast.read(run, arguments.forecast)
+    middle = times.utc(run, float(run.times[0] + run.times[-1]) / 2.0)
+    nearest = min(smokes, key=lambda each: abs((each.valid - middle).total_seconds()))
+    chosen = smoke_forecast.at(smokes, arguments.time) if arguments.time else nearest
+    result(smoke_forecast.page(smokes, chosen, clock))
+    if arguments.out:
+        from .run import maps
+
+        text = f"forecast of {times.text(chosen.issued, clock)} for {times.text(chosen.valid, clock)}"
+        path = arguments.out / f"smoke_{chosen.valid:%Y%m%dT%H%MZ}.png"
+        maps.save(maps.smoke_map(run, chosen.column, text), path)
+        result(path)
+
+
 def score(arguments: argparse.Namespace) -> None:
     """Compare a run with observations of its fire."""
     from . import files

@@ -65,6 +65,12 @@ MAPS = """\
 DIR/fuel.png        surface and canopy fuel together, kg/m2; greener is denser
 DIR/intensity.png   maximum heat flux of the run, light yellow to red, over shaded relief"""
 
+HAZE = """\
+GRIB2 are files of HRRR (wrfsfc) with smoke: MASSDEN at 8 m and COLMD. Prints density, column mass, visual
+range (only smoke, contrast of 2 %) and optical depth over the run at each valid time, and the lines of a
+scene file for --time: light.smoke and light.smoke_height. Extinction is 4 m2/g; measured values are 3.3 to
+7.4 m2/g. Fields of zeros are refused, as they are not clean air. Needs rasterio and pyproj."""
+
 SCORE = """\
 FILE holds dated perimeters (.geojson, .shp, .kml, .kmz, .gpkg) or FIRMS detections of VIIRS and MODIS
 (.csv). Append the date to a file without dates: FILE@2014-09-18T04:00-07:00. Scores by date: areas, Sorensen,

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 FUEL = LinearSegmentedColormap.from_list("fuel", thumbnails.FUEL)
 INTENSITY = LinearSegmentedColormap.from_list("intensity", thumbnails.INTENSITY)
+SMOKE = LinearSegmentedColormap.from_list("smoke", ["#f7f3ea", "#c9b79c", "#8a6f57", "#4a3728"])
 SEEN = LinearSegmentedColormap.from_list("seen", ["#d4e6f7", "#5aa2dd", "#0b3d75"])
 HEAT = {"intense": "#c2006e", "scattered": "#6a3fc4", "isolated": "#00625f", "possible": "#5f7a7a"}
 NOTHING = Observations()
@@ -48,8 +49,8 @@ def draw(run: Run, out: Path, zone: str, seen: Observations = NOTHING) -> list[P
         Both files.
     """
     paths = [out / "fuel.png", out / "intensity.png"]
-    _save(fuel_map(run), paths[0])
-    _save(intensity_map(run, zone, seen), paths[1])
+    save(fuel_map(run), paths[0])
+    save(intensity_map(run, zone, seen), paths[1])
     return paths
 
 
@@ -76,6 +77,17 @@ def intensity_map(run: Run, zone: str, seen: Observations = NOTHING) -> Figure:
     _colour_bar(figure, axes, image, "heat flux, kW/m$^2$ (logarithmic)", "min")
     _burned_before(axes, run)
     _seen(axes, run, zone, seen)
+    _places(axes, run)
+    return figure
+
+
+def smoke_map(run: Run, column: NDArray[np.float64], subtitle: str) -> Figure:
+    """Draw the column mass of smoke (mg/m2) in model cells over hill shading."""
+    figure, axes = _page(run, "Smoke above the ground", subtitle)
+    high = float(column.max()) or 1.0
+    image = _show(axes, run.latitude, run.longitude, column.astype(np.float32), SMOKE, Normalize(0, high))
+    _relief(axes, run, 0.18)
+    _colour_bar(figure, axes, image, "smoke, mg/m$^2$")
     _places(axes, run)
     return figure
 
@@ -338,5 +350,6 @@ def _north_arrow(axes: Axes) -> None:
 _PLATE: dict[str, Any] = {"facecolor": "white", "alpha": 0.78, "edgecolor": "none"}
 
 
-def _save(figure: Figure, path: Path) -> None:
+def save(figure: Figure, path: Path) -> None:
+    """Write a figure as PNG, in place of a file."""
     files.write(path, lambda part: figure.savefig(part, dpi=DPI, metadata={"Software": "Firetwin"}))
