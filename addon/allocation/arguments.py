@@ -104,6 +104,10 @@ def add(
         help=f"distance of the line from the fire's edge, m ({INDIRECT:g})",
     )
     parser.add_argument(
+        "--ensemble", metavar="DIR", type=path,
+        help="forecast of many members: times by which 10 and 50 %% of them reach each control line (none)",
+    )  # fmt: skip
+    parser.add_argument(
         "--geojson", metavar="FILE", type=path, help="also write lines and resources for maps"
     )
     parser.add_argument("--json", action="store_true", help="write JSON")

@@ -13,7 +13,8 @@ from .. import files
 from ..errors import Error
 from ..progress import result
 from ..run import times
-from . import job, page, read
+from ..run.ensemble import place_arrivals
+from . import job, members, page, read
 from .control_line import LineOptions
 from .problem import Request
 
@@ -39,6 +40,8 @@ def run(arguments: argparse.Namespace, open_run: Callable[[Path], Run]) -> None:
     line = LineOptions(0.5 * arguments.close_gaps, arguments.indirect)
     found = job.suggest(units, run, request, start, arguments.hours, arguments.divisions, line=line)
     drawn = found.pop("map")
+    if arguments.ensemble is not None:
+        members.add(found, run, place_arrivals.open_forecast(arguments.ensemble, "the list"), drawn)
     found["left_out"] += left_out
     if arguments.geojson is not None:
         files.write_text(arguments.geojson, json.dumps(drawn, separators=(",", ":")) + "\n")

@@ -60,6 +60,12 @@ def _division(division: dict[str, Any], found: dict[str, Any], money: str) -> It
         there = front[found["hours"].index(hour)]
         yield f"{head}: contained at hour {hour:g}, line {division['line']:,.0f} m of {there:,.0f} m"
     yield from (_resource(each, money) for each in division["resources"])
+    if forecast := division.get("forecast"):
+        yield f"  members of the forecast at this line: {forecast['text']}"
+        yield (
+            f"  {forecast['reached_by_hour']} of {forecast['members']} members reach it by hour "
+            f"{forecast['hour']:g}"
+        )
     if plan := division.get("nearest_plan"):
         yield from _plan(plan, money)
 

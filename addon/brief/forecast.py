@@ -110,8 +110,8 @@ def _section(briefing: Briefing, found: Forecast) -> Iterator[str]:
     yield from _growth(briefing, found)
     yield (
         "<p class='soft' id='typical-note'>* The typical member is the deepest by epsilon inclusion depth "
-        "(Chaves-de-Plaza et al., 2024): its final burned area lies inside that of many others, and many "
-        "others lie inside it. The outlier is the least deep one.</p>"
+        "(Chaves-de-Plaza et al., 2024): many others contain its final burned area, and it contains many "
+        "others. The outlier is the least deep one.</p>"
     )
 
 
@@ -246,7 +246,7 @@ def _places(briefing: Briefing, found: Forecast) -> Iterator[str]:
         if arrivals.reached[index]:
             rows.append(_row(point, index, arrivals, zone))
         elif arrivals.simulated[index]:
-            never.append(quote(point.name))
+            never.append(quote(point.name + _near(arrivals, index)))
     if rows:
         heads = [arrivals.share_text(share) for share in SHARES]
         titles = "".join(f'<th scope="col">{quote(head)}<br>burn it by</th>' for head in heads)
@@ -262,6 +262,12 @@ def _places(briefing: Briefing, found: Forecast) -> Iterator[str]:
             f"<p>No member reaches these places by {end}, when the forecast ends: {', '.join(never)}. They "
             "may burn later.</p>"
         )
+
+
+def _near(arrivals: PlaceArrivals, index: int) -> str:
+    """Name the members that burn ground near a place that none of them burns."""
+    count, distance = int(arrivals.near[index]), place_arrivals.NEAR / 1000.0
+    return f" (within {distance:g} km in {count} of {arrivals.count})" if count else ""
 
 
 def _row(point: Point, index: int, arrivals: PlaceArrivals, zone: str) -> str:

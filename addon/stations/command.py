@@ -15,6 +15,7 @@ from ..data import history
 from ..errors import InputError, UsageError, input_error
 from ..progress import count, result, say
 from ..run import labels, times, zone
+from ..run.ensemble import place_arrivals
 from . import exercise, ignition, importers, merging, page, reading, search, station_search, writing
 from .import_options import ImportOptions
 from .import_rows import Batch
@@ -137,7 +138,10 @@ def find_resources(arguments: argparse.Namespace, fire: OpenFire) -> int:
         found: search.Found | station_search.Found = station_search.survey(station_file, query)
     else:
         found = search.survey(station_file, query)
-    answer = page.Answer(station_file, query, found, opened.run if opened else None)
+    members = None
+    if arguments.ensemble is not None:
+        members = place_arrivals.open_forecast(arguments.ensemble, "the list")
+    answer = page.Answer(station_file, query, found, opened.run if opened else None, members)
     if arguments.ahead:
         answer = answer.ahead(arguments.clearance)
     result(
@@ -161,8 +165,8 @@ def _check_query(arguments: argparse.Namespace) -> None:
         raise UsageError(f"--near: {arguments.near} needs the fire of a run; name it with --run")
     if arguments.near == "head" and arguments.available_at is None:
         raise UsageError("--near: head needs a time; give it with --available-at")
-    if arguments.ahead and arguments.run is None:
-        raise UsageError("--ahead: needs the fire of a run; name it with --run")
+    if arguments.ahead and arguments.run is None and arguments.ensemble is None:
+        raise UsageError("--ahead: needs the fire of a run or a forecast; name it with --run or --ensemble")
     for name in ("within", "minutes", "tonnes_per_hour"):
         if getattr(arguments, name) is not None and arguments.near is None:
             raise UsageError(f"--{name.replace('_', '-')}: needs a destination; give it with --near")

@@ -15,7 +15,9 @@ from firetwin_core.run import Run
 from ..escaped import escaped
 from ..progress import count
 from ..run import times, zone
+from ..run.ensemble.ensemble import Ensemble
 from . import arrival_text, fire_arrival, search, station_search
+from .member_arrivals import MemberArrivals
 from .query import Query
 from .records import EXERCISE, Source
 from .station_file import StationFile
@@ -23,12 +25,13 @@ from .station_file import StationFile
 
 @dataclass(frozen=True)
 class Answer:
-    """Result of a search, with the fire of a run if a run is given."""
+    """Result of a search, with the fire of a run, and of a forecast's members, if they are given."""
 
     station_file: StationFile
     query: Query
     found: search.Found | station_search.Found
     run: Run | None = None
+    ensemble: Ensemble | None = None
 
     @property
     def shortfall(self) -> str:
@@ -48,11 +51,21 @@ class Answer:
         at = [each.station for each in self.matches]
         return fire_arrival.sample(self.run, [each.latitude for each in at], [each.longitude for each in at])
 
+    @cached_property
+    def forecast(self) -> MemberArrivals | None:
+        """Arrival of the members at the station of each match."""
+        if self.ensemble is None:
+            return None
+        return MemberArrivals.at(self.ensemble, [each.station for each in self.matches], self.run)
+
     def ahead(self, clearance_km: float) -> Answer:
         """Select the stations that the fire reaches or approaches, after the time of the query if it has one.
 
-        They are sorted by this time. Stations on ground that burned before the run are omitted.
+        They are sorted by this time. Stations on ground that burned before the run are omitted. Without a
+        run, they are the stations that a tenth of the members reach.
         """
+        if self.run is None and self.forecast is not None:
+            return self._ahead_of_members(self.forecast)
         found, arrivals, run = self.found, self.arrivals, self.run
         if arrivals is None or run is None:
             return self
@@ -67,6 +80,13 @@ class Answer:
         order = order[np.argsort(arrivals.nearest_time[order], kind="stable")]
         matches: Any = [found.matches[k] for k in order]
         return replace(self, found=replace(found, matches=matches, left_out=found.left_out | dict(reasons)))
+
+    def _ahead_of_members(self, forecast: MemberArrivals) -> Answer:
+        found, order = self.found, forecast.ahead(self.query.at)
+        matches: Any = [found.matches[k] for k in order]
+        far = len(found.matches) - len(matches)
+        reasons = {"forecast: a tenth of the members do not reach it after that time": far} if far else {}
+        return replace(self, found=replace(found, matches=matches, left_out=found.left_out | reasons))
 
     @property
     def exercise(self) -> bool:
@@ -103,7 +123,7 @@ class Answer:
                     "fire: times are estimated from heat fluxes; ground burned before the run counts as not "
                     "reached"
                 )
-        return lines
+        return lines + (self.forecast.notes() if self.forecast else [])
 
     def as_json(self) -> dict[str, Any]:
         """Return JSON data; lengths in km, times in UTC."""
@@ -118,7 +138,9 @@ class Answer:
             "left_out": self.found.left_out,
             "shortfall": self.shortfall,
             "matches": [
-                asdict(each) | ({"fire": self._fire(k)} if self.run else {})
+                asdict(each)
+                | ({"fire": self._fire(k)} if self.run else {})
+                | ({"forecast": self.forecast.as_json(k)} if self.forecast else {})
                 for k, each in enumerate(self.matches)
             ],
         }
@@ -147,7 +169,8 @@ class Answer:
                     "resource",
                     "station",
                 ]
-            lines += _table(heads + (["fire"] if self.run else []), rows)
+            more = [*(["fire"] if self.run else []), *(self.forecast.heads() if self.forecast else [])]
+            lines += _table(heads + more, rows)
         lines.append(self._sum())
         lines += [f"left out: {number:,} {reason}" for reason, number in found.left_out.items()]
         lines += self.assumptions()
@@ -165,6 +188,7 @@ class Answer:
 
     def _row(self, index: int, match: search.Match | station_search.StationMatch) -> list[str]:
         fire = [self._arrival_text(index).headline] if self.run else []
+        fire += self.forecast.cells(index) if self.forecast else []
         if isinstance(match, station_search.StationMatch):
             return [_number(match.distance_km, 1), match.station.origin, escaped(match.station.name), *fire]
         each = match.resource

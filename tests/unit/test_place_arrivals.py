@@ -52,11 +52,18 @@ def test_sentences(tmp_path):
         f"1 of 4 by 17 Sep 01:00, 2 of 4 by 17 Sep 09:00; not in 2 of 4 by 18 Sep 00:00{END}",
         f"1 of 3 by 17 Sep 05:00, 2 of 3 by 17 Sep 06:00; not in 1 of 3 by 18 Sep 00:00{END}",
         f"1 of 4 burned before, 2 of 4 burned before; not in 1 of 4 by 18 Sep 00:00{END}",
-        f"not in 4 of 4 by 18 Sep 00:00{END}",
+        f"not in 4 of 4 (within 1 km in 3) by 18 Sep 00:00{END}",
         "not simulated",
     ]
     few = make(tmp_path / "few", [[3] + [NEVER] * 29])
     assert few.sentence(0, "UTC").startswith("1 of 30 by 17 Sep 03:00; not in 29 of 30 by")
+
+
+def test_members_near_a_place_without_fuel_are_counted(tmp_path):
+    """Cells are 880 m wide: the fire of one member is in the next cell, and of another one after the next."""
+    made = make(tmp_path, [[NEVER] * 3, [2, NEVER, NEVER], [3, 3, NEVER], [NEVER] * 3])
+    assert made.near.tolist() == [1, 0, 0, 2, 0]
+    assert made.sentence(0, "UTC") == f"not in 3 of 3 (within 1 km in 1) by 18 Sep 00:00{END}"
 
 
 def test_weights_are_said_not_to_be_used(tmp_path):

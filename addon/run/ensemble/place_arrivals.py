@@ -6,6 +6,7 @@ A quantile is the earliest time by which a share of the members has burned a pla
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import timedelta
 from pathlib import Path
@@ -15,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...errors import input_error
 from .. import times
+from ..areas import cell_size
 from ..arrival_grid import ArrivalGrid
 from . import ensemble
 from .ensemble import Ensemble
@@ -25,6 +27,10 @@ PERCENT_FROM = 51
 """Number of members from which on shares are given in percent."""
 SHARES = 0.1, 0.5, 0.9
 """Shares of the members in tables."""
+NEAR = 1000.0
+"""Distance (m) up to which a fire counts as near a place that does not burn itself, as in lists of a run.
+
+Cells of buildings or water have no fuel in many models, and never burn."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,11 +43,14 @@ class PlaceArrivals:
         (m,) indices of these members.
     arrival
         (m, n) s since the issue time; inf: not until the end of the forecast; NaN: not simulated.
+    near
+        (n,) number of members that burn a cell within `NEAR` of a place that no member burns; else 0.
     """
 
     ensemble: Ensemble
     members: NDArray[np.int64]
     arrival: NDArray[np.float64]
+    near: NDArray[np.int64]
 
     @property
     def count(self) -> int:
@@ -116,7 +125,8 @@ class PlaceArrivals:
             parts = [f"{len(known) - never} of {len(known)} by {last}"]
         found = [", ".join(parts)] if parts else []
         if never:
-            found.append(f"not in {never} of {len(known)} by {self.end(zone)}, when the forecast ends")
+            near = f" (within {NEAR / 1000.0:g} km in {self.near[place]})" if self.near[place] else ""
+            found.append(f"not in {never} of {len(known)}{near} by {self.end(zone)}, when the forecast ends")
         return "; ".join(found)
 
     def weights_note(self) -> str:
@@ -142,6 +152,17 @@ def open_forecast(folder: Path, what: str) -> Ensemble:
     return found
 
 
+def earliest(found: Ensemble, lines: Sequence[NDArray[np.float64]]) -> PlaceArrivals:
+    """Sample the earliest arrival of each member on lines, each of points (k, 2), degrees east and north."""
+    counted = np.flatnonzero(found.counted(found.horizon))
+    arrival = np.full((len(counted), len(lines)), np.nan)
+    for column, line in enumerate(lines):
+        if len(line):
+            points = sample(found, line[:, 1], line[:, 0]).arrival
+            arrival[:, column] = np.fmin.reduce(points, axis=1)
+    return PlaceArrivals(found, counted, arrival, np.zeros(len(lines), np.int64))
+
+
 def sample(found: Ensemble, latitude: ArrayLike, longitude: ArrayLike) -> PlaceArrivals:
     """Sample the members that reach the end of a forecast in the cells of places (n,), degrees."""
     grid = ArrivalGrid(found.latitude, found.longitude, np.empty(found.shape[1:]))
@@ -149,4 +170,22 @@ def sample(found: Ensemble, latitude: ArrayLike, longitude: ArrayLike) -> PlaceA
     rows, columns = grid.cells_at(np.asarray(latitude, np.float64), np.asarray(longitude, np.float64))
     arrival = found.at(np.maximum(rows, 0), np.maximum(columns, 0))[counted].astype(np.float64)
     arrival[:, (rows < 0) | (columns < 0)] = np.nan
-    return PlaceArrivals(found, counted, arrival)
+    near = np.zeros(len(rows), np.int64)
+    for place in np.flatnonzero(np.isinf(arrival).any(axis=0) & ~np.isfinite(arrival).any(axis=0)):
+        near[place] = _members_near(found, counted, int(rows[place]), int(columns[place]))
+    return PlaceArrivals(found, counted, arrival, near)
+
+
+def _members_near(found: Ensemble, counted: NDArray[np.int64], row: int, column: int) -> int:
+    """Count the members that burn a cell whose centre is within `NEAR` of the centre of a cell."""
+    width, height = cell_size(found.latitude, found.longitude)
+    _, ny, nx = found.shape
+    up, right = int(NEAR / height), int(NEAR / width)
+    rows, columns = np.meshgrid(
+        np.arange(max(row - up, 0), min(row + up + 1, ny)),
+        np.arange(max(column - right, 0), min(column + right + 1, nx)),
+        indexing="ij",
+    )
+    inside = np.hypot((rows - row) * height, (columns - column) * width) <= NEAR
+    burned = found.at(rows[inside], columns[inside])[counted] <= found.horizon
+    return int(burned.any(axis=1).sum())

@@ -1,0 +1,89 @@
+"""Columns, data and notes on the arrival of a forecast's members at stations, in the words of the page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+
+import numpy as np
+from firetwin_core.run import Run
+
+from ..run import times, zone
+from ..run.ensemble import place_arrivals
+from ..run.ensemble.ensemble import Ensemble
+from ..run.ensemble.place_arrivals import SHARES, PlaceArrivals
+from .records import Station
+
+_SHOWN = SHARES[:2]
+
+
+@dataclass(frozen=True)
+class MemberArrivals:
+    """Arrivals of the members of a forecast at stations (n,), with times of a zone."""
+
+    arrivals: PlaceArrivals
+    zone: str
+
+    @classmethod
+    def at(cls, found: Ensemble, stations: Sequence[Station], run: Run | None) -> MemberArrivals:
+        """Sample the members at stations, with the time zone of the run, if there is one."""
+        where = zone.of_longitude(float(found.longitude.mean())) if run is None else zone.time_zone(run)
+        latitude, longitude = (
+            [getattr(each, axis) for each in stations] for axis in ("latitude", "longitude")
+        )
+        return cls(place_arrivals.sample(found, latitude, longitude), where)
+
+    def heads(self) -> list[str]:
+        """Return the titles of the columns."""
+        titles = [f"{self.arrivals.share_text(share)} burn it by" for share in _SHOWN]
+        return [*titles, f"do not reach it by {self.arrivals.end(self.zone)}"]
+
+    def cells(self, station: int) -> list[str]:
+        """Return the cells of a station."""
+        found, known = self.arrivals, self.arrivals.known(station)
+        if not len(known):
+            return ["not simulated"] * 3
+        never = int(np.isinf(known).sum())
+        near = int(found.near[station])
+        close = f", within {place_arrivals.NEAR / 1000.0:g} km in {near}" if near else ""
+        times = (found.by_text(station, share, self.zone) for share in _SHOWN)
+        return [*times, f"{never} of {len(known)}{close}"]
+
+    def as_json(self, station: int) -> dict[str, Any]:
+        """Return the quantiles of a station as JSON data; times in UTC, null: later or never."""
+        found, known = self.arrivals, self.arrivals.known(station)
+        quantiles = [(share, found.by(station, share)) for share in SHARES]
+        return {
+            "text": found.sentence(station, self.zone),
+            "members": len(known),
+            "not_reached": int(np.isinf(known).sum()),
+            "near": int(found.near[station]),
+            "burned_by": [
+                {"share": share, "time": times.iso(found.ensemble.valid(time)) if np.isfinite(time) else None}
+                for share, time in quantiles
+            ],
+        }
+
+    def ahead(self, after: datetime | None) -> list[int]:
+        """List stations that a tenth of the members reach after a time (the issue time), earliest first."""
+        issued = self.arrivals.ensemble.issued
+        then = 0.0 if after is None else max((after - issued).total_seconds(), 0.0)
+        first = np.array([self.arrivals.by(k, SHARES[0]) for k in range(self.arrivals.arrival.shape[1])])
+        keep = np.flatnonzero(np.isfinite(first) & (first > then))
+        order: list[int] = keep[np.argsort(first[keep], kind="stable")].tolist()
+        return order
+
+    def notes(self) -> list[str]:
+        """Describe the forecast, and say that "later or never" is not safe."""
+        found = self.arrivals.ensemble
+        total = len(found.members) + len(found.left_out)
+        issued, end = (times.text(found.valid(time), self.zone) for time in (0.0, found.horizon))
+        note = self.arrivals.weights_note()
+        return [
+            f"forecast: {found.manifest.name}, {self.arrivals.count} of {total} members, issued {issued}"
+            + (" (synthetic)" if found.manifest.synthetic else ""),
+            f'forecast: it ends {end}; "later or never" is not "safe"',
+            *([f"forecast: {note}"] if note else []),
+        ]
