@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..errors import Error, InputError, input_error
 from ..progress import Progress, silent
-from . import about, check_formats, check_labels, sums, truth, twins
+from . import about, check_formats, check_labels, sums, table, truth, twins
 from .findings import RESUME, Finding, limited
 from .formats import common
 from .truth import Truth
@@ -152,6 +152,11 @@ def _balance(samples: Sequence[Truth]) -> Iterator[Finding]:
         share = f"{negatives / len(members):.0%} without fire and smoke"
         text = f"{split}: {len(members):,} samples, {share}; labels: {counts}"
         yield Finding("balance", text, is_fault=False)
+        burning = [sample for sample in members if table.kind(sample) == "fire"]
+        if hidden := sum(not sample.annotations for sample in burning):
+            part = f"{hidden:,} of {len(burning):,} samples with fire"
+            text = f"{split}: {part} have no label (hidden, too small or too thin)"
+            yield Finding("balance", text, is_fault=False)
         absent = [each.name for each in common.THINGS if not labels[each.id]]
         absent += [] if negatives else ["samples without fire and smoke"]
         if absent and len(members) >= _BALANCED:

@@ -232,6 +232,12 @@ def test_a_large_split_needs_each_category_and_negatives(tmp_path):
     assert found == ["train: has no fire; draw more samples, or change positives and [splits] in the plan"]
 
 
+def test_fires_without_a_label_are_counted(folder):
+    change(folder, 3, draw={"kind": "fire"})
+    remarks = [each.text for each in check.check(folder) if not each.is_fault]
+    assert any("train: 1 of 5 samples with fire have no label" in text for text in remarks)
+
+
 def test_many_faults_of_a_kind_end_with_their_number(folder):
     for number in range(30):
         (folder / f"{number}.txt").write_text("")
