@@ -2,18 +2,20 @@
 
 import json
 import tarfile
+from dataclasses import replace
 from unittest.mock import Mock
 
 import labelled
 import numpy as np
 import pytest
-from firetwin.dataset import formats, rle
-from firetwin.dataset.formats import voc, yolo
-from firetwin.dataset.truth import CATEGORIES, stem
-from firetwin.errors import UsageError
+from firetwin.dataset import files, formats, rle
+from firetwin.dataset.formats import common, voc, yolo
+from firetwin.dataset.truth import CATEGORIES, Truth, stem
+from firetwin.errors import InputError, UsageError
 from firetwin.shot.cameras.rotation import matrices
 from PIL import Image
 
+POSE = labelled.camera(1)
 NAMES = [name for name in formats.FORMATS if name != "parquet"]
 
 
@@ -184,3 +186,43 @@ def test_names_of_formats_are_explained(monkeypatch):
         assert "parquet" not in formats.names("all")
         with pytest.raises(UsageError, match=words):
             formats.names("parquet")
+
+
+def test_runs_with_similar_names_have_separate_folders():
+    samples = [
+        Truth(n, POSE, "", 0.0, groups={"run": run}) for n, run in enumerate(("a b", "a_b", "a/b", "a b"))
+    ]
+    found = common.by_run(samples)
+    assert sorted(len(members) for members in found.values()) == [1, 1, 2]
+    assert all(name.replace("_", "").isalnum() for name in found)
+
+
+def test_large_sets_are_divided_in_order(made, monkeypatch):
+    folder, samples = made
+    size = sum((folder / path).stat().st_size for path in samples[0].files.values())
+    monkeypatch.setattr(common, "SHARD_BYTES", 2 * size)
+    parts = common.shards(folder, samples)
+    assert len(parts) >= 3
+    assert [truth for part in parts for truth in part] == samples
+    assert all(parts)
+
+
+def test_a_set_without_splits_is_one_list(tmp_path):
+    samples = [replace(truth, split="") for truth in labelled.data_set(tmp_path, 3)]
+    formats.write(tmp_path, samples, ["yolo", "coco", "webdataset"])
+    assert len((tmp_path / "all.txt").read_text().split()) == 3
+    assert "train: all.txt\nval: all.txt\n" in (tmp_path / "data.yaml").read_text()
+    assert len(instances(tmp_path, "all")["images"]) == 3
+    assert (tmp_path / "webdataset/all-000000.tar").is_file()
+
+
+def test_a_failed_format_leaves_the_old_files(made, tmp_path):
+    labelled.data_set(tmp_path, 3)
+    samples = made[1][:3]
+    formats.write(tmp_path, samples, ["coco"])
+    before = (tmp_path / "annotations/instances_train.json").read_bytes()
+    (tmp_path / files.name("masks", 2)).unlink()
+    with pytest.raises(InputError, match=r"000002\.png"):
+        formats.write(tmp_path, samples, ["coco"])
+    assert (tmp_path / "annotations/instances_train.json").read_bytes() == before
+    assert not list(tmp_path.parent.glob(".*.part"))
