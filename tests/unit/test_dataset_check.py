@@ -8,6 +8,7 @@ import labelled
 import numpy as np
 import plain_samples
 import pytest
+from firetwin import cli
 from firetwin.dataset import about, check, files, finish, formats, labels, sensor, sums, truth, twins
 from firetwin.errors import InputError
 from firetwin.shot.passes import masks
@@ -287,3 +288,11 @@ def test_samples_that_the_labels_and_the_sensors_wrote_have_no_faults(tmp_path):
     samples = finish.read_samples(tmp_path)
     assert [len(sample.annotations) for sample in samples] == [2, 0]
     assert not faults(tmp_path)
+
+
+def test_the_command_prints_faults_and_ends_with_1(folder, capsys):
+    assert cli.main(["dataset", "check", str(folder)]) == 0
+    (folder / "notes.txt").write_text("mine")
+    assert cli.main(["dataset", "check", str(folder)]) == 1
+    out = capsys.readouterr().out.splitlines()
+    assert [line for line in out if not line.startswith("note: ")] == [faults(folder)[0]]

@@ -91,7 +91,7 @@ def _panoptic(folder: Path, truth: Truth, masks: files.Masks, pictures: Path) ->
     segments = segment_ids(files.read(folder, "classes", truth.index), truth.annotations, masks)
     name = f"{stem(truth.index)}.png"
     coded = np.stack([segments & 255, segments >> 8 & 255, segments >> 16], axis=-1).astype(np.uint8)
-    Image.fromarray(coded).save(pictures / name)
+    Image.fromarray(coded).save(pictures / name, compress_level=3)
     return {"image_id": truth.index, "file_name": name, "segments_info": _segments(segments)}
 
 
@@ -113,7 +113,8 @@ def segment_ids(
 
 def _segments(segments: NDArray[np.int64]) -> list[dict[str, Any]]:
     found = []
-    for number in np.unique(segments[segments > 0]).tolist():
+    areas = np.bincount(segments.ravel())
+    for number in (np.flatnonzero(areas[1:]) + 1).tolist():  # without void
         mask = segments == number
         rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
         x, y = int(columns[0]), int(rows[0])
@@ -121,7 +122,7 @@ def _segments(segments: NDArray[np.int64]) -> list[dict[str, Any]]:
             {
                 "id": number,
                 "category_id": number // _SEGMENTS,
-                "area": int(mask.sum()),
+                "area": int(areas[number]),
                 "bbox": [x, y, int(columns[-1]) + 1 - x, int(rows[-1]) + 1 - y],
                 "iscrowd": 0,
             }
