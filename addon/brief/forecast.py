@@ -241,12 +241,14 @@ def _places(briefing: Briefing, found: Forecast) -> Iterator[str]:
     """Build a table of places that any member burns, and name the others."""
     arrivals, zone = found.arrivals, briefing.zone
     end = quote(arrivals.end(zone))
-    rows, never = [], []
+    rows, near, never = [], [], []
     for index, point in enumerate(briefing.points):
         if arrivals.reached[index]:
             rows.append(_row(point, index, arrivals, zone))
+        elif count := int(arrivals.near[index]):
+            near.append(f"{quote(point.name)} (in {count} of {arrivals.count})")
         elif arrivals.simulated[index]:
-            never.append(quote(point.name + _near(arrivals, index)))
+            never.append(quote(point.name))
     if rows:
         heads = [arrivals.share_text(share) for share in SHARES]
         titles = "".join(f'<th scope="col">{quote(head)}<br>burn it by</th>' for head in heads)
@@ -257,17 +259,14 @@ def _places(briefing: Briefing, found: Forecast) -> Iterator[str]:
             f'<th scope="col" class="text">each '
             f"member,<br>{span}</th></tr></thead><tbody>{''.join(rows)}</tbody></table></div>"
         )
+    if near:
+        distance, listed = f"{place_arrivals.NEAR / 1000.0:g} km", ", ".join(near)
+        yield f"<p>No member burns these places, but fire comes within {distance} by {end}: {listed}.</p>"
     if never:
         yield (
             f"<p>No member reaches these places by {end}, when the forecast ends: {', '.join(never)}. They "
             "may burn later.</p>"
         )
-
-
-def _near(arrivals: PlaceArrivals, index: int) -> str:
-    """Name the members that burn ground near a place that none of them burns."""
-    count, distance = int(arrivals.near[index]), place_arrivals.NEAR / 1000.0
-    return f" (within {distance:g} km in {count} of {arrivals.count})" if count else ""
 
 
 def _row(point: Point, index: int, arrivals: PlaceArrivals, zone: str) -> str:

@@ -78,7 +78,7 @@ def test_shares_of_many_members_are_percentages(folder, stations, tmp_path):
 def test_places_without_fire_are_named_once(folder, stations, tmp_path):
     axes = [np.load(folder / f"fuel_{name}.npy") for name in ("latitude", "longitude")]
     here = np.full((axes[0].size, axes[1].size), np.inf, np.float32)
-    here[0, 0] = 60.0
+    here[0, 0] = 60.0  # more than 1 km away
     head = Manifest("Few", "", ISSUED, 6 * HOURS, ())
     write.write(tmp_path / "e", head, *axes, [(Member("a"), here), (Member("b"), here)])
     text = section(folder, stations, tmp_path / "e")
@@ -87,6 +87,13 @@ def test_places_without_fire_are_named_once(folder, stations, tmp_path):
         "No member reaches these places by 17 Sep 02:00, when the forecast ends: Alpha, Bravo. They may burn"
     )
     assert text.count(said) == 1
+    row, column = (int(np.abs(axis - at).argmin()) for axis, at in zip(axes, (38.9, -120.6), strict=True))
+    here[row, column - 8] = 60.0  # 480 m from Alpha
+    write.write(tmp_path / "near", head, *axes, [(Member("a"), here), (Member("b"), here)])
+    text = section(folder, stations, tmp_path / "near")
+    assert (
+        "No member burns these places, but fire comes within 1 km by 17 Sep 02:00: Alpha (in 2 of 2)" in text
+    )
 
 
 def test_the_page_escapes_the_names_of_an_ensemble(folder, tmp_path):
