@@ -30,6 +30,7 @@ def check(settings: Settings, run: Run) -> None:
     orthophoto.check(settings, run)
     land_use.check(settings, run)
     globe_picture.check(settings)
+    _smoke(settings)
     observed.check(settings)
     forecast.check(settings, run)
     labels.check(settings, run)
@@ -40,6 +41,12 @@ def check(settings: Settings, run: Run) -> None:
         if invalid := camera.rig.validate_against(run, frames.resolve(settings.time, run)):
             reason = f'camera "{camera.name}" {invalid[1]}'
             raise scene_text.error_at(settings.path, ("cameras", index, *invalid[0]), reason)
+
+
+def _smoke(settings: Settings) -> None:
+    if settings.light.smoke and any(camera.rig.beyond for camera in settings.cameras):
+        reason = "light.smoke is not drawn in scenes with a globe camera; remove one of them"
+        raise scene_text.error_at(settings.path, ("light", "smoke"), reason)
 
 
 def _window(settings: Settings, run: Run) -> None:

@@ -8,6 +8,7 @@ from firetwin.errors import InputError
 from firetwin.jobs import convert
 from firetwin.run import readers
 from firetwin.run.ensemble import ensemble
+from firetwin.run.models import probability_maps
 
 pytest.importorskip("pyproj")
 ASCII = "ncols 2\nnrows 2\nxllcorner {x}\nyllcorner 4300000\ncellsize 30\nNODATA_value -9999\n"
@@ -66,3 +67,8 @@ def test_other_arrival_maps_are_not_farsite_minutes(tmp_path, name):
     path = grid(tmp_path / f"{name}.asc", "1 2\n3 4\n")
     with pytest.raises(InputError, match="no fire can burn from it"):
         readers.reader([path])
+
+
+def test_the_name_of_flammap_alone_is_not_a_probability():
+    assert probability_maps.refusal(Path("FlamMap_Arrival Time.asc")) is None
+    assert probability_maps.refusal(Path("FlamMap_BurnProbability.tif"))

@@ -1,7 +1,11 @@
 """Air near the ground: smoke of a forecast as haze; exact at the ground and in its optical depth."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from firetwin.errors import InputError
+from firetwin.shot import run_checks
 from firetwin.shot.light import exposure_meter, sky, smoke_haze
 from firetwin.shot.sections.light import Light
 
@@ -34,3 +38,12 @@ def test_the_meter_integrates_the_layer():
         exact = np.mean(layer[0] * np.exp(-(height + up * along) / layer[1])) * far
         found = exposure_meter._haze_depth(*(np.array([each]) for each in (height, up, far)), layer)
         assert found[0] == pytest.approx(exact, rel=1e-3)
+
+
+def test_a_globe_camera_shows_no_smoke(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text("[light]\nsmoke = 5.0\n")
+    camera = SimpleNamespace(rig=SimpleNamespace(beyond=True))
+    settings = SimpleNamespace(path=path, light=Light(smoke=5.0), cameras=[camera])
+    with pytest.raises(InputError, match=r"scene.toml:2:1: light.smoke is not drawn in scenes with a globe"):
+        run_checks._smoke(settings)
