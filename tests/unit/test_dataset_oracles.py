@@ -109,7 +109,8 @@ def test_datasets_reads_parquet_files(made, tmp_path):
 def compare_rows(found, samples):
     for split in ("train", "test"):
         members = [truth for truth in samples if truth.split == split]
-        for row, truth in zip(found[split], members, strict=True):
+        rows = sorted(found[split], key=lambda row: row["index"])
+        for row, truth in zip(rows, members, strict=True):
             assert row["index"] == truth.index
             assert row["image"].size == (labelled.WIDTH, labelled.HEIGHT)
             corners = [(x, y, x + w, y + h) for x, y, w, h in row["objects"]["bbox"]]

@@ -1,7 +1,8 @@
 """Hugging Face ImageFolder: the pictures of each split, and `metadata.jsonl` with boxes and facts.
 
 `objects` has `bbox` (x, y, width, height, pixels from the corner), `category` (0 fire, 1 smoke) and `name`.
-The pictures are second names (hard links where the file system has them).
+The pictures are second names (hard links where the file system has them). The library infers the types of
+columns from the first rows of each split, so a row without gaps is the first one.
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
         for truth in members:
             name = common.picture(truth)
             common.link(set_folder / name, folder / PurePosixPath(name).name)
-        common.write_lines(folder / "metadata.jsonl", [json.dumps(row(truth)) for truth in members])
+        rows = sorted((row(truth) for truth in members), key=_gaps)
+        common.write_lines(folder / "metadata.jsonl", [json.dumps(each) for each in rows])
 
 
 def row(truth: Truth) -> dict[str, Any]:
@@ -33,14 +35,20 @@ def row(truth: Truth) -> dict[str, Any]:
     return {"file_name": PurePosixPath(common.picture(truth)).name, "objects": objects(truth)} | facts(truth)
 
 
+def _gaps(found: dict[str, Any]) -> int:
+    """Count the columns whose type a row does not show."""
+    columns = [*found["objects"].values(), [found["seconds_since_ignition"]]]
+    return sum(all(value is None for value in column) for column in columns)
+
+
 def objects(truth: Truth) -> dict[str, list[Any]]:
     """Return the boxes of a sample as lists."""
     return {
-        "bbox": [common.corner_and_size(each.box) for each in truth.annotations],
+        "bbox": [[float(side) for side in common.corner_and_size(each.box)] for each in truth.annotations],
         "category": [common.class_index(each) for each in truth.annotations],
         "name": [_NAMES[each.category] for each in truth.annotations],
-        "distance_m": [each.distance_m for each in truth.annotations],
-        "visible_fraction": [each.visible_fraction for each in truth.annotations],
+        "distance_m": [_float(each.distance_m) for each in truth.annotations],
+        "visible_fraction": [float(each.visible_fraction) for each in truth.annotations],
     }
 
 
@@ -53,5 +61,9 @@ def facts(truth: Truth) -> dict[str, Any]:
         "camera": truth.groups.get("camera", ""),
         "utc": truth.utc,
         "negative": truth.is_negative,
-        "seconds_since_ignition": truth.seconds_since_ignition,
+        "seconds_since_ignition": _float(truth.seconds_since_ignition),
     }
+
+
+def _float(value: float | None) -> float | None:
+    return None if value is None else float(value)
