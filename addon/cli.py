@@ -212,7 +212,7 @@ def _parser() -> argparse.ArgumentParser:
         nargs="+",
         type=types.path,
         default=[],
-        help="forecast of HRRR for the wind at 10 m, if the model writes none: files of all hours of the run",
+        help="forecast of HRRR for the wind at 10 m, if the model writes none: a file per hour",
     )
     made.add_argument(
         "--horizon",

@@ -69,12 +69,19 @@ def test_wind_of_east_and_north_is_not_turned(arrivals, tmp_path):
     np.testing.assert_allclose(run.wind(0)[1], NORTH, rtol=1e-6)
 
 
+def test_the_last_wind_is_held_and_printed(arrivals, tmp_path):
+    files = [grib_files.write(tmp_path / f"f{hours}.grib2", turned(1.0 + hours), hours) for hours in (0, 1)]
+    run = converted(arrivals, tmp_path / "run", *files)
+    np.testing.assert_allclose(run.wind(len(run.times) - 1)[0], 2.0 * EAST, rtol=1e-5)
+    late = int((run.times > 3601).sum())
+    assert f"{late} of {len(run.times)} times have its" in (tmp_path / "run" / "run.toml").read_text()
+
+
 def test_files_that_do_not_fit_are_one_line(arrivals, tmp_path):
     first = grib_files.write(tmp_path / "f0.grib2", turned())
-    with pytest.raises(
-        InputError, match=r"wind is valid from 2014-09-17 00:00 to 2014-09-17 00:00 UTC, and the run"
-    ):
-        converted(arrivals, tmp_path / "run", first)
+    late = grib_files.write(tmp_path / "late.grib2", turned(), 9)
+    with pytest.raises(InputError, match="valid at 2014-09-17 09:00 to 2014-09-17 09:00 UTC, and the run"):
+        converted(arrivals, tmp_path / "run", late)
     with pytest.raises(InputError, match=r"f0b.grib2: has UGRD for 2014-09-17 00:00 UTC, as f0.grib2 has"):
         converted(arrivals, tmp_path / "run", first, grib_files.write(tmp_path / "f0b.grib2", turned()))
     alone = grib_files.write(tmp_path / "alone.grib2", {"UGRD": turned()["UGRD"]})

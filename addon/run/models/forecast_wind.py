@@ -21,12 +21,12 @@ _FIELDS = ("UGRD", "VGRD")
 
 
 def add(model: Model, paths: list[Path]) -> None:
-    """Add wind to a model: bilinear in space, linear in time between two valid times.
+    """Add wind to a model: bilinear in space, linear in time between two valid times, constant outside.
 
     Raises
     ------
     InputError
-        The model has wind, or the files have no wind at 10 m for all its places and times.
+        The model has wind, or the files have no wind at 10 m at its place and in its time.
     """
     if "wind_east" in model.moving:
         raise input_error(model.files[0], "already has wind; leave out --wind")
@@ -36,7 +36,7 @@ def add(model: Model, paths: list[Path]) -> None:
     if latitude.ndim == 1:
         latitude, longitude = np.meshgrid(latitude, longitude, indexing="ij")
     seconds = np.array([(each.valid - model.start).total_seconds() for each in east])
-    _check_times(model, east, seconds)
+    notes = _held(model, east, seconds)
 
     @lru_cache(2)  # both neighbours of a time
     def wind(index: int) -> tuple[NDArray, NDArray]:
@@ -48,6 +48,7 @@ def add(model: Model, paths: list[Path]) -> None:
         before = int(np.clip(np.searchsorted(seconds, time, "right") - 1, 0, max(len(seconds) - 2, 0)))
         after = min(before + 1, len(seconds) - 1)
         part = (time - seconds[before]) / (seconds[after] - seconds[before]) if after > before else 0.0
+        part = float(np.clip(part, 0.0, 1.0))
         return wind(before)[axis] * (1.0 - part) + wind(after)[axis] * part
 
     model.moving["wind_east"] = lambda index: along(0, index)
@@ -59,6 +60,7 @@ def add(model: Model, paths: list[Path]) -> None:
         f"wind is UGRD and VGRD at 10 m of a weather forecast (issued {issued} UTC), {turned}; it did not "
         "drive the fire model"
     )
+    model.assumptions += notes
 
 
 def _read(model: Model, paths: list[Path]) -> tuple[list[Field], list[Field]]:
@@ -81,15 +83,26 @@ def _read(model: Model, paths: list[Path]) -> tuple[list[Field], list[Field]]:
     return east, north
 
 
-def _check_times(model: Model, fields: list[Field], seconds: NDArray[np.float64]) -> None:
+def _held(model: Model, fields: list[Field], seconds: NDArray[np.float64]) -> list[str]:
+    """Describe the times of the run before and after all valid times, which have the first or last wind.
+
+    Raises
+    ------
+    InputError
+        No valid time is within the run.
+    """
     first, last = float(model.times[0]), float(model.times[-1])
-    if first < seconds[0] - 1.0 or last > seconds[-1] + 1.0:
-        have = [f"{each.valid:%Y-%m-%d %H:%M}" for each in (fields[0], fields[-1])]
+    have = " to ".join(f"{each.valid:%Y-%m-%d %H:%M}" for each in (fields[0], fields[-1]))
+    if last < seconds[0] or first > seconds[-1]:
         need = [f"{model.start + timedelta(seconds=time):%Y-%m-%d %H:%M}" for time in (first, last)]
-        reason = (
-            f"wind is valid from {have[0]} to {have[1]} UTC, and the run lasts from {need[0]} to {need[1]}"
-        )
-        raise input_error(fields[0].path, f"{reason}; give files of all its hours")
+        reason = f"wind is valid at {have} UTC, and the run lasts from {need[0]} to {need[1]}"
+        raise input_error(fields[0].path, f"{reason}; give files of its hours")
+    outside = int(((model.times < seconds[0] - 1.0) | (model.times > seconds[-1] + 1.0)).sum())
+    if not outside:
+        return []
+    return [
+        f"wind is valid at {have} UTC: {outside} of {len(model.times)} times have its first or last value"
+    ]
 
 
 def _air(model: Model, side: float) -> Grid:
