@@ -176,7 +176,7 @@ class _Film:
         shutil.rmtree(place, ignore_errors=True)
         end = _frames(self.settings, known.run).last
         known_run.write(known.run, needed, end, place, known.identity)
-        choice = replace(self.choice, run=str(place))
+        choice = replace(self.choice, run=str(place), cache=str(self._cache()))
         if self.settings.light.exposure is None:
             self.exposure = self.exposure or self._meter(choice)
             choice = replace(choice, exposure=self.exposure)
@@ -184,6 +184,17 @@ class _Film:
         made = render.run(choice, asked, self.progress, self.tell, self.stop)
         self.pictures += made.pictures
         self.expected, self.peak = max(self.expected, made.expected), max(self.peak, made.peak)
+
+    def _cache(self) -> Path:
+        """Return the cache, without the smoke of earlier known runs, which no other render can use.
+
+        Selected tiles are kept in the cache of the scene file.
+        """
+        if self.settings.tiles.sources:
+            return self.settings.cache.absolute()
+        place = self.folder / "cache"
+        shutil.rmtree(place, ignore_errors=True)
+        return place
 
     def _meter(self, choice: ShotSource) -> str:
         """Meter the first frame; later frames keep this exposure, as later light is not known."""

@@ -195,3 +195,66 @@ def test_a_run_ends_at_a_stated_time_or_when_its_files_rest(in_process, tmp_path
     run.watch = watch._Watch(watch.WatchRequest(run.source, tmp_path / "two", idle=1e-6), run.said.append)
     assert run.poll(2) == "ended"
     assert [each.complete for each in watched.times(tmp_path / "two")] == ["next", "end"]
+
+
+def test_wrf_files_become_the_run_that_a_conversion_makes(in_process, tmp_path):
+    """One file per time; the log names complete ones, and says that the model has ended."""
+    import model_files
+    from firetwin.jobs import convert
+
+    made, source = tmp_path / "made", tmp_path / "model"
+    made.mkdir()
+    source.mkdir()
+    files, _ = model_files.wrf(made, times=(60, 120, 180), per_file=1)
+    said, known = [], []
+    look = watch._Watch(watch.WatchRequest(source, tmp_path / "DIR", name="Fire"), said.append)
+    log = source / model_log.NAME
+    log.write_text("")
+    for done, path in enumerate(files, start=1):
+        (source / path.name).write_bytes(path.read_bytes())
+        look.poll()
+        assert len(watched.times(tmp_path / "DIR")) == done - 1
+        with log.open("a") as file:
+            file.write(f"Timing for Writing {path.name} for domain        1:    0.2 elapsed seconds\n")
+        look.poll()
+        assert watched.times(tmp_path / "DIR")[-1].complete == "log"
+        assert len(watched.times(tmp_path / "DIR")) == done
+        known.append(readers.open(tmp_path / "DIR").fuel_arrival_time())
+    with log.open("a") as file:
+        file.write("wrf: SUCCESS COMPLETE WRF\n")
+    look.poll()
+    assert look.state == "ended"
+    paths = [str(path) for path in files]
+    convert.in_process(paths, str(tmp_path / "whole"), ["", "", "", 0.0, "Fire", ""])
+    found, whole = readers.open(tmp_path / "DIR"), readers.open(tmp_path / "whole")
+    assert (found.start, list(found.times)) == (whole.start, list(whole.times))
+    np.testing.assert_array_equal(found.fuel_arrival_time(), whole.fuel_arrival_time())
+    for time, arrival in zip(whole.times, known, strict=True):
+        later = whole.fuel_arrival_time() > time
+        np.testing.assert_array_equal(arrival, np.where(later, np.nan, whole.fuel_arrival_time()))
+    np.testing.assert_array_equal(found.surface_fuel, whole.surface_fuel)
+    for index in range(3):
+        np.testing.assert_array_equal(found.heat_flux(index), whole.heat_flux(index))
+    assert {*whole.fields} - {*found.fields} <= {each for each in whole.fields if each.endswith("_3d")}
+
+
+def test_a_model_that_fails_ends_the_watch(in_process, tmp_path):
+    run = Watched(tmp_path, "netcdf3")
+    for _ in range(2):
+        run.model.append()
+    run.poll()
+    run.model.close()
+    (run.source / model_log.NAME).write_text("FATAL CALLED FROM FILE:  <stdin>  LINE: 419\n")
+    assert run.poll() == "failed"
+    assert "LINE: 419" in json.loads((run.out / watched.STATUS).read_text())["message"]
+
+
+def test_zarr_metadata_before_its_chunks_is_no_time(in_process, tmp_path):
+    run = Watched(tmp_path, "zarr")
+    for _ in range(2):
+        run.model.append()
+    run.model.data["heat_flux"].resize((4, growing_model.CELLS, growing_model.CELLS))
+    run.model.data["time"].resize((4,))
+    run.model.data["time"][2:] = [1200.0, 1800.0]
+    run.poll(3)
+    assert [seconds for seconds, _ in run.accepted()] == [0.0, 600.0]
