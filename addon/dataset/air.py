@@ -1,4 +1,4 @@
-"""Air of a sample: haze, fog and dust, from its meteorological visibility. Needs no Blender."""
+"""Air and moon of a sample: haze, fog and dust from its meteorological visibility. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..run.sun import Moon
 from ..shot.light import sky
 from .draw import Draw
 
 _KOSCHMIEDER = 3.912  # optical depth at which a contrast of 1 falls to 2 % (WMO-No. 8)
 _FOG_SUN, _DUST_SUN = 0.12, 0.45  # share of direct sunlight that passes (by eye)
+_MOON = 15.0, 65.0  # degrees, elevations of the moon (assumed)
 _FOG_SOFT = 40.0  # degrees, angle over which the sun spreads in fog (by eye)
 
 
@@ -57,3 +59,10 @@ def haze_amount(drawn: Draw) -> float:
     low = min(drawn.camera.position[2], drawn.target[2])
     shares = np.exp(-low / sky.HAZE_HEIGHT) + sky.LOW_HAZE * np.exp(-low / sky.LOW_HEIGHT)
     return float(_KOSCHMIEDER / (1000.0 * drawn.visibility) / (sky.HAZE * shares))
+
+
+def moon(drawn: Draw) -> Moon:
+    """Draw a moon above the horizon: from none to full, with equal density of its light."""
+    random = np.random.default_rng(drawn.random_seed("moon"))
+    bearing, height, light = random.uniform((0.0, _MOON[0], 0.0), (360.0, _MOON[1], 1.0))
+    return Moon(float(bearing), float(height), float(light))

@@ -27,11 +27,12 @@ from .run_scene import settings_of
 
 MEMBERS = 12
 """Samples of a visit at most; with more cameras, each has fewer of the trees."""
-_TREES, _UNDERSTOREY, _TREE_DISTANCE = 90_000, 12_000, 6_000.0  # limits on plants, and m
+_TREES, _UNDERSTOREY, _TREE_DISTANCE = 60_000, 8_000, 6_000.0  # limits on plants, and m
 _ERROR = 0.2  # pixels, tolerance of the terrain mesh
-_CELLS = 0.4  # million flow cells per second of model time
+_CELLS = 0.25  # million flow cells per second of model time
 _FIREBRANDS = 600
-_RAYS = 3  # samples per pixel; with the denoiser a draft frame of a film
+_LAMPS = 16
+_RAYS = 2  # samples per pixel; with the denoiser close to a draft frame of a film
 _SENSOR = 36.0  # mm
 _AIM = 1000.0  # m, distance of a camera's target, which only sets its name
 
@@ -78,6 +79,7 @@ def shot_of_visit(plan: Plan, visit: Visit) -> Shot:
         forest=replace(given.forest, budget=_TREES, understorey=_UNDERSTOREY, draw_distance=_TREE_DISTANCE),
         fire=replace(given.fire, firebrands=_FIREBRANDS, flames=visit.has_fire),
         smoke=replace(given.smoke, enabled=visit.has_fire, cell_budget=_CELLS),
+        light=replace(given.light, lamps=min(given.light.lamps, _LAMPS)),
         labels=replace(given.labels, enabled=False),
         stations=replace(given.stations, enabled=False),
         render=replace(

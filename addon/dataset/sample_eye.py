@@ -24,6 +24,7 @@ _WHITE = 1.2  # as in `render.eye`
 _STEP = 1.0  # voxels, step along the rays that measure the distance of smoke
 _SPARSE = 2  # pixels between these rays
 _SEEN = 0.01  # opacity of smoke from which it has a distance
+_CLEAR = 0.999  # transmittance above which infrared smoke is not marched
 _NEAREST, _FARTHEST, _TAPS = 5.0, 6.0e4, 40  # m; distances along a ray at which opacity is known
 
 
@@ -50,10 +51,12 @@ class SampleEye(Eye):
         composed = self._compose(rendered, at, marched)
         clear = 1.0 - composite.smoke_opacity(rendered, at, marched)
         if not self.smoke:
+            self.has_smoke_or_flames = _around(composed.fire.max(axis=-1) > 0.0)
             return Light(*(2 * [composed.picture]), composed.smoke, *(2 * [composed.fire]), clear)
         smoke, self.smoke = self.smoke, []
         twin = self._compose(rendered, at, self._march_taps(at, True, _MIDDLE))
         self.smoke = smoke
+        self.has_smoke_or_flames = _around((clear < _CLEAR) | (twin.fire.max(axis=-1) > 0.0))
         return Light(composed.picture, twin.picture, composed.smoke, composed.fire, twin.fire, clear)
 
     def _compose(self, rendered: composite.Surfaces, at: Array, marched: Array) -> composite.Layers:
@@ -90,6 +93,11 @@ class SampleEye(Eye):
         height, width = self.shape
         found = np.repeat(np.repeat(coarse, _SPARSE, axis=0), _SPARSE, axis=1)[:height, :width]
         return np.where(clear < 1.0 - _SEEN, found, np.inf).astype(np.float32)
+
+
+def _around(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Widen a mask (h, w) by pixels in which the rays between the first ones meet the same flames."""
+    return composite.widen(chosen, 2)
 
 
 class CentreEye(SampleEye):

@@ -60,10 +60,11 @@ class SampleRenderer(IntegratedRenderer):
         with cost.part("shadow of smoke"):
             if self.shadow:
                 self.shadow.cast(self.stage, smoke)
-        with cost.part("surfaces"):
-            found = self._surfaces("rgb", folder)
-        with cost.part("classes"):
-            centres = self._surfaces("masks", folder, centres=True)
+        with self._kept_in_cycles():
+            with cost.part("surfaces"):
+                found = self._surfaces("rgb", folder)
+            with cost.part("classes"):
+                centres = self._surfaces("masks", folder, centres=True)
         burning = flames, outline
         eye = SampleEye(shot, self.stage, found, 0, smoke, *burning, flame_distance=distance)
         centre = CentreEye(shot, self.stage, centres, 0, smoke, *burning)
@@ -104,6 +105,16 @@ class SampleRenderer(IntegratedRenderer):
         shown = sensor.read_image(file)[..., :3]
         file.unlink()
         return shown
+
+    @contextmanager
+    def _kept_in_cycles(self) -> Iterator[None]:
+        """Let the renders of a sample share meshes and their search trees in Cycles, during a `with` block."""
+        render = self.scene.render
+        render.use_persistent_data = True
+        try:
+            yield
+        finally:
+            render.use_persistent_data = False
 
     def _surfaces(self, name: str, folder: Path, centres: bool = False) -> surfaces.Channels:
         """Render the surfaces of a pass."""

@@ -84,6 +84,8 @@ class Eye:
         self.clear = np.ones(self.shape, np.float32)
         """Transmittance (h, w) of smoke, once `picture` has computed it."""
         self.parts = parts
+        self.has_smoke_or_flames = np.ones(self.shape, bool)
+        """Pixels (h, w) whose infrared rays are marched; a caller that knows more can set it."""
         self.layers: dict[str, Array] = {}
         """Layers of the picture (see `shot.passes.comp`), once `picture` has computed them."""
 
@@ -163,13 +165,14 @@ class Eye:
         if not (self.smoke or self.flames):
             return bare
         air = illumination.infrared_arguments(self.shot, self.stage, frame)
-        burning, alight = air | self._burning, np.zeros(self.shape, bool)
-        if self.flames:
+        burning, alight, within = air | self._burning, np.zeros(self.shape, bool), self.has_smoke_or_flames
+        if self.flames and within.any():
             outline = air | {"flames": self.outline}
-            alight = self._march_infrared([], ~alight, _PLACES, outline)[:, 1].reshape(self.shape) < 1.0
+            alight[within] = self._march_infrared([], within, _PLACES, outline)[:, 1] < 1.0
             alight = composite.widen(alight, _AROUND)
-        marched = np.empty((*self.shape, 2), np.float32)
-        for chosen, places, met in ((~alight, _MIDDLE, air), (alight, _FINER_PLACES, burning)):
+        marched = np.zeros((*self.shape, 2), np.float32)
+        marched[..., 1] = 1.0
+        for chosen, places, met in ((within & ~alight, _MIDDLE, air), (alight, _FINER_PLACES, burning)):
             if chosen.any():
                 marched[chosen] = self._march_infrared(self.smoke, chosen, places, met)
         light, through = np.moveaxis(marched, -1, 0)

@@ -34,16 +34,16 @@ class Moon:
 NO_MOON = Moon(*_STARS, 0.0)
 
 
-_fixed: list[tuple[float, float]] = []
+_fixed: list[tuple[tuple[float, float], Moon]] = []
 
 
 @contextlib.contextmanager
-def fixed(bearing: float, height: float) -> Iterator[None]:
-    """Fix the sun of all runs at a bearing and elevation (degrees), without a moon, during a `with` block.
+def fixed(bearing: float, height: float, moon: Moon = NO_MOON) -> Iterator[None]:
+    """Fix the sun of all runs at a bearing and elevation (degrees), and the moon, during a `with` block.
 
     Samples of a data set draw the sun independently of the date.
     """
-    _fixed.append((bearing, height))
+    _fixed.append(((bearing, height), moon))
     try:
         yield
     finally:
@@ -90,7 +90,7 @@ def moon(run: Run, time: float) -> Moon:
     a is 180 degrees less the elongation, since the sun is far behind the moon.
     """
     if _fixed:
-        return NO_MOON
+        return _fixed[-1][1]
     moment, place = times.utc(run, time), middle(run)
     bearing, height = moon_angles(*place, moment)
     if height <= 0.0:
@@ -125,7 +125,7 @@ def toward_moon(run: Run, time: float) -> NDArray[np.float64]:
 def position(run: Run, time: float) -> tuple[float, float]:
     """Compute the solar bearing and elevation (degrees) at the grid's centre at a model time (s)."""
     if _fixed:
-        return _fixed[-1]
+        return _fixed[-1][0]
     return angles(*middle(run), times.utc(run, time))
 
 

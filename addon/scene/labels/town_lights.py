@@ -35,6 +35,13 @@ def build(
     centre = np.column_stack([place, shot.ground.up(*place.T) + _HEIGHT])
     cool = random.uniform(size=(len(centre), 1)) < _COLD
     light = np.where(cool, _COOL, _WARM) * random.uniform(0.4, 1.6, (len(centre), 1)) * _LIGHT
+    return place_lamps(shot, collection, centre, light)
+
+
+def place_lamps(
+    shot: Shot, collection: bpy.types.Collection, centre: NDArray[np.float64], light: NDArray[np.float64]
+) -> bpy.types.Object:
+    """Place lamps at centres (n, 3), m, with a colour and brightness (n, 3) relative to lit windows."""
     corners = (centre[:, None] + _SIZE * _CORNERS).reshape(-1, 3)
     faces = (np.arange(len(centre))[:, None, None] * len(_CORNERS) + _FACES).reshape(-1, 3)
     data = create_mesh("Firetwin Town Lights", corners, faces, flat=True)

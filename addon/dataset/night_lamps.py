@@ -1,0 +1,46 @@
+"""Lamps on the ground of a sample at night: street lamps and houses, which look like distant fire."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blender.owned import Stage
+from ..scene.labels import town_lights
+from ..shot.shot import Shot
+from .draw import Draw
+
+_HEIGHT = 6.0  # m
+_REACH = np.geomspace(30.0, 15_000.0, 200)  # m, distances at which a ray is tested against the ground
+_TRIES = 8  # rays for each lamp: rays to the sky and to places too close meet none
+_WARM, _COOL, _COLD = (1.0, 0.62, 0.30), (0.85, 0.92, 1.0), 0.4  # sodium and white lamps; share of these
+_LIGHT = 4.0, 40.0  # brightness relative to lit windows (assumed)
+
+
+def build(shot: Shot, stage: Stage, drawn: Draw) -> None:
+    """Place the lamps of a sample in its view; remove the lamps of another sample."""
+    collection = stage.part("Labels")
+    if not drawn.lamps:
+        return
+    random = np.random.default_rng(drawn.random_seed("lamps"))
+    centre = _seen_places(shot, random, drawn.lamps)
+    cool = random.uniform(size=(len(centre), 1)) < _COLD
+    bright = np.exp(random.uniform(*np.log(_LIGHT), (len(centre), 1)))
+    if len(centre):
+        town_lights.place_lamps(shot, collection, centre, np.where(cool, _COOL, _WARM) * bright)
+
+
+def _seen_places(shot: Shot, random: np.random.Generator, count: int) -> NDArray[np.float64]:
+    """Find up to `count` places (n, 3), m, above ground that the camera sees."""
+    (view,) = shot.paths
+    across, up = random.uniform(-0.9, 0.9, (2, _TRIES * count))
+    plane = np.column_stack([across * view.half[0], up * view.half[1], -np.ones(len(up))])
+    along = plane @ view.rotation[0].T
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    way = view.position[0] + _REACH[:, None, None] * along
+    ground = shot.bare_ground.up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])
+    below = way[..., 2] < ground
+    hit = below.any(axis=0) & ~below[0]
+    place = way[below.argmax(axis=0), np.arange(len(along))][hit][:count]
+    place[:, 2] = shot.ground.up(*place[:, :2].T) + _HEIGHT
+    return place
