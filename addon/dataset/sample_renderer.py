@@ -108,7 +108,7 @@ class SampleRenderer(IntegratedRenderer):
 
     @contextmanager
     def _kept_in_cycles(self) -> Iterator[None]:
-        """Let the renders of a sample share meshes and their search trees in Cycles, during a `with` block."""
+        """Let the renders of a sample share meshes and search trees in Cycles, during a `with` block."""
         render = self.scene.render
         render.use_persistent_data = True
         try:
