@@ -1,6 +1,6 @@
 """Clouds in the sky of a sample: a flat layer of noise in the world's shader, lit as a whole.
 
-Clouds are white on their thin edges and grey where they are thick. They cast no shadow; `air` dims the sun
+Clouds have white, thin edges and a grey inside. They cast no shadow; `air` dims the sun
 under a cloudy sky. Haze hides them at the horizon.
 """
 
@@ -19,7 +19,7 @@ _SIZE, _OCTAVES, _ROUGH = 0.9, 7.0, 0.52  # features relative to the height of t
 _CLEAREST, _COVERED = 0.66, 0.38  # noise at the edge of clouds for a cover of 0 and 1 (by eye)
 _SOFT = 0.05, 0.17  # noise from edge to opaque, and to the greyest (by eye)
 _LOW = 0.015, 0.10  # sines of elevation between which haze gives way to clouds (by eye)
-_SHARE = 0.30  # radiance over that of a white surface under sun and sky, as of smoke (`exposure_meter`)
+_SHARE = 0.30  # radiance relative to a white surface under sun and sky, as of smoke (`exposure_meter`)
 _GREY = 0.55  # radiance of thick clouds relative to their edges (by eye)
 
 

@@ -22,7 +22,7 @@ Array = NDArray[np.float32]
 _MIDDLE = ((0.5, 0.5),)  # one marched ray in a pixel: smoke is smooth within four pixels
 _WHITE = 1.2  # as in `render.eye`
 _STEP = 1.0  # voxels, step along the rays that measure the distance of smoke
-_SPARSE = 2  # pixels between these rays
+_SPARSE = 2  # pixels along a block with one of these rays; pictures have even sides
 _SEEN = 0.01  # opacity of smoke from which it has a distance
 _CLEAR = 0.999  # transmittance above which infrared smoke is not marched
 _NEAREST, _FARTHEST, _TAPS = 5.0, 6.0e4, 40  # m; distances along a ray at which opacity is known
@@ -74,12 +74,13 @@ class SampleEye(Eye):
         found = np.full(self.shape, np.inf, np.float32)
         if not self.smoke:
             return found
-        sparse = (slice(None, None, _SPARSE), slice(None, None, _SPARSE))
-        seen = clear[sparse] < 1.0 - _SEEN
+        row, column = _densest(clear)
+        seen = clear[row, column] < 1.0 - _SEEN
         if not seen.any():
             return found
-        origins, directions = self.rays.origins, self.rays.directions[sparse][seen]
-        ends = np.minimum(self.distance[sparse][seen], _FARTHEST)
+        row, column = row[seen], column[seen]
+        origins, directions = self.rays.origins, self.rays.directions[row, column]
+        ends = np.minimum(self.distance[row, column], _FARTHEST)
         at = np.geomspace(np.minimum(_NEAREST, ends), ends, _TAPS, axis=-1).astype(np.float32)
         through = volume.march(self.smoke, origins, directions, at, self._light, _STEP)[..., 3]
         half = 0.5 * (1.0 + through[:, -1:])
@@ -93,6 +94,16 @@ class SampleEye(Eye):
         height, width = self.shape
         found = np.repeat(np.repeat(coarse, _SPARSE, axis=0), _SPARSE, axis=1)[:height, :width]
         return np.where(clear < 1.0 - _SEEN, found, np.inf).astype(np.float32)
+
+
+def _densest(clear: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return row and column of the pixel with the densest smoke in each block of `_SPARSE` pixels."""
+    height, width = (side // _SPARSE * _SPARSE for side in clear.shape)
+    blocks = clear[:height, :width].reshape(height // _SPARSE, _SPARSE, width // _SPARSE, _SPARSE)
+    blocks = blocks.swapaxes(1, 2).reshape(height // _SPARSE, width // _SPARSE, _SPARSE**2)
+    down, across = np.divmod(blocks.argmin(axis=-1), _SPARSE)
+    corner = np.meshgrid(*(np.arange(0, side, _SPARSE) for side in (height, width)), indexing="ij")
+    return corner[0] + down, corner[1] + across
 
 
 def _around(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
