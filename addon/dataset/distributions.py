@@ -147,7 +147,7 @@ VALUES: Mapping[str, Value] = MappingProxyType(
         "distance_drone": Value(LogUniform(50, 1500), "m", 1, 200000, "distance of a drone"),
         "distance_aircraft": Value(LogUniform(2000, 15000), "m", 1, 200000, "distance of an aircraft"),
         "distance_nadir": Value(LogUniform(100, 1500), "m", 1, 200000, "height of a camera that looks down"),
-        "mast": Value(Uniform(15, 45), "m", 1, 500, "height of a tower above the ground"),
+        "mast": Value(Uniform(15, 45), "m", 1, 500, "height of a tower above ground or trees"),
         "bearing_from_wind": Value(Uniform(-180, 180), "degrees", -180, 180, "bearing from upwind"),
         "pitch_tower": Value(Uniform(-5, 3), "degrees", -90, 90, "angle of the view above the horizon"),
         "pitch_drone": Value(Uniform(-90, -10), "degrees", -90, 90, "the same of a drone"),

@@ -129,8 +129,9 @@ class Drawer:
             site = f"{stratum.camera}-{flight + 1}"
             pose = placement.place_mobile(scene, stratum.camera, front, target, lens, value)
         placement.check(scene, pose, is_mobile=stratum.camera != "tower")
+        distance = float(np.linalg.norm(target - pose.position))
         if stratum.kind == POSITIVE:
-            placement.check_fire(scene, pose, time, lens, allow_hidden=value("ridge") >= 0.5)
+            placement.check_fire(scene, pose, time, lens, distance, allow_hidden=value("ridge") >= 0.5)
         camera = _camera(scene, stratum.camera, site, pose, value("field_of_view"))
         sun = _sun(stratum, camera.heading, value)
         visibility, cloud_cover = value(_VISIBILITY[stratum.kind]), value(_CLOUDS[stratum.kind])
@@ -155,7 +156,7 @@ class Drawer:
             utc=times.utc(scene.run, time),
             camera=camera,
             target=_triple(target),
-            distance=float(np.linalg.norm(target - pose.position)),
+            distance=distance,
             sun_elevation=sun[0],
             sun_azimuth=sun[1],
             visibility=visibility,

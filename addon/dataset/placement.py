@@ -14,6 +14,7 @@ from .sites import Tower
 
 _NEAREST = 20.0  # m, least distance of a camera from the front (assumed)
 _PLUME = 300.0  # m, height above the front at which smoke is expected (assumed)
+_NEAR, _VEIL = 0.25, 0.3  # share of the distance to the target, up to which smoke may have this mean opacity
 _EDGE = 0.98  # place of a fire that the edge of the picture cuts
 
 Array = NDArray[np.float64]
@@ -93,8 +94,17 @@ def check(scene: RunScene, pose: Pose, is_mobile: bool) -> None:
         raise Rejected("too close to the ground")
 
 
-def check_fire(scene: RunScene, pose: Pose, time: float, lens: Lens, allow_hidden: bool) -> None:
+def check_fire(
+    scene: RunScene, pose: Pose, time: float, lens: Lens, distance: float, allow_hidden: bool
+) -> None:
     """Check that a camera shows the front, or at least smoke if terrain may hide all flames.
+
+    Parameters
+    ----------
+    distance
+        From the camera to its target, m.
+    allow_hidden
+        Terrain may hide all flames.
 
     Raises
     ------
@@ -109,3 +119,5 @@ def check_fire(scene: RunScene, pose: Pose, time: float, lens: Lens, allow_hidde
     points = np.concatenate([front, front + np.array([0.0, 0.0, _PLUME])]) if allow_hidden else front
     if not scene.visible(points, *pose, lens.half).any():
         raise Rejected("no fire in view")
+    if scene.veil(time, *pose, lens.half, _NEAR * distance) > _VEIL:
+        raise Rejected("in the smoke")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -10,8 +11,10 @@ from firetwin_core import lod
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
+from ..auto_framing.coarse_smoke import CoarseSmoke
 from ..auto_framing.front import front_at, some
-from ..run import burning, readers
+from ..run import burning, readers, times
+from ..shot.sections import Time
 from ..shot.settings import Settings, scene_file
 from ..shot.shot import Shot
 from ..shot.terrain.terrain import NEVER
@@ -20,13 +23,17 @@ from .plan import PlanRun
 _POINTS = 160  # front points at most per time
 _RADIUS = 1.0  # m, radius of a front point
 _CANOPY = 0.01  # kg/m2, canopy fuel from which there are trees
-_TREE, _OPEN = 35.0, 5.0  # m, least height of mobile cameras above ground with trees and without (assumed)
+TREE = 35.0
+"""Height above ground at which a camera is clear of trees, m (assumed)."""
+_OPEN = 5.0  # m, the same without trees (assumed)
+_CELLS = 0.4  # million flow cells per second of model time, as in `places`
+_RAYS = 7, 5  # across and up a picture, in which smoke is measured
 
 Array = NDArray[np.float64]
 
 
 def settings_of(run: PlanRun) -> Settings:
-    """Read the scene file of a run, or make default settings for a run folder.
+    """Read the scene file of a run, or make default settings for a run folder, with the cache next to it.
 
     Raises
     ------
@@ -35,7 +42,8 @@ def settings_of(run: PlanRun) -> Settings:
     """
     if run.run.suffix == ".toml":
         return scene_file.read(run.run)
-    return Settings(path=run.run.parent / f"{run.name}.toml", run=run.run)
+    folder = run.run.parent
+    return Settings(path=folder / f"{run.name}.toml", run=run.run, cache=folder / "cache")
 
 
 class RunScene:
@@ -84,6 +92,27 @@ class RunScene:
     def _surroundings(self) -> tuple[slice, slice]:
         return burning.surroundings(self.run, self._arrival)
 
+    @functools.lru_cache(maxsize=64)  # noqa: B019
+    def smoke(self, time: float) -> CoarseSmoke:
+        """Solve the smoke of a coarse flow at a model time; this takes about a second."""
+        settings = self.settings
+        still = Time(start=times.utc(self.run, time), frames=1, shutter=0.0, zone=settings.time.zone)
+        smoke = replace(settings.smoke, cell_budget=_CELLS)
+        shot = Shot(replace(settings, time=still, smoke=smoke, cameras=(), runs=()), self.run)
+        shot.relief, shot.arrival = self.shot.relief, self._arrival
+        shot.bare_ground = self.ground
+        return CoarseSmoke(shot, [0])
+
+    def veil(
+        self, time: float, position: Array, rotation: Array, half: tuple[float, float], reach: float
+    ) -> float:
+        """Compute the mean opacity of smoke in a picture, up to a distance of `reach` m, 0..1."""
+        x, y = (part.ravel() for part in np.meshgrid(*(np.linspace(-0.9, 0.9, count) for count in _RAYS)))
+        rays = np.stack([x * half[0], y * half[1], -np.ones_like(x)], axis=-1)
+        rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
+        depth = self.smoke(time).depth(0, position, position + reach * rays @ rotation.T)
+        return float(np.mean(1.0 - np.exp(-depth)))
+
     @cached_property
     def burned(self) -> Array:
         """Points (n, 3) of the ground that burns in the run, m; 160 at most."""
@@ -102,10 +131,13 @@ class RunScene:
         """Height of a point (3,) above the ground, m."""
         return float(position[2] - self.ground.up(position[0], position[1])[0])
 
+    def trees(self, east: Array, north: Array) -> NDArray[np.bool_]:
+        """Return whether trees grow at points (n,), m."""
+        return self.ground.sample(self.ground.fields.canopy_fuel, east, north) > _CANOPY
+
     def clearance(self, position: Array) -> float:
         """Least height of a mobile camera above the ground below a point (3,), m."""
-        canopy = self.ground.sample(self.ground.fields.canopy_fuel, position[0], position[1])
-        return _TREE if float(canopy[0]) > _CANOPY else _OPEN
+        return TREE if self.trees(position[:1], position[1:2])[0] else _OPEN
 
     def visible(
         self, points: Array, position: Array, rotation: Array, half: tuple[float, float]

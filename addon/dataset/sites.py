@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from .hashing import share
 from .plan import Plan
-from .run_scene import RunScene
+from .run_scene import TREE, RunScene
 
 _CANDIDATES = 12  # points per tower, of which the highest ground is chosen (assumed)
 _SECTOR = 40.0  # degrees, width of the sector of the candidates of a tower (assumed)
@@ -29,7 +29,7 @@ def towers(plan: Plan, name: str, scene: RunScene) -> list[Tower]:
     """Place the towers of a run.
 
     Their distances from the middle of the burned ground follow the distribution `distance_tower`, one tower
-    in each equal part of it. Their bearings are random.
+    in each equal part of it. Their bearings are random. In a forest the mast stands out above the trees.
     """
     middle = scene.burned.mean(axis=0) if len(scene.burned) else np.zeros(3)
     found = []
@@ -46,7 +46,8 @@ def towers(plan: Plan, name: str, scene: RunScene) -> list[Tower]:
         angles = np.radians(turns)
         east, north = middle[0] + distance * np.sin(angles), middle[1] + distance * np.cos(angles)
         up = scene.ground.up(east, north)
-        best = int(np.argmax(up))
-        mast = plan.draws["mast"].quantile(value("mast"))
+        trees = np.where(scene.trees(east, north), TREE, 0.0)
+        best = int(np.argmax(up - trees))
+        mast = plan.draws["mast"].quantile(value("mast")) + trees[best]
         found.append(Tower(f"tower-{site + 1}", np.array([east[best], north[best], up[best] + mast])))
     return found

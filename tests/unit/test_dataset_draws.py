@@ -8,11 +8,23 @@ import small_plan
 from firetwin.dataset import draws, hashing, placement
 from firetwin.dataset.distributions import VALUES, Constant, LogUniform
 from firetwin.dataset.draws import Drawer
+from firetwin.dataset.run_scene import RunScene
 from firetwin.errors import InputError
 from firetwin.shot.cameras import rotation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis_profiles import examples
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _clear():
+    """Solve no smoke, except where a test asks for it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(RunScene, "veil", lambda *_: 0.0)
+        yield
+
+
+VEIL = RunScene.veil
 
 
 @pytest.fixture(scope="module")
@@ -127,6 +139,19 @@ def test_a_fire_behind_a_ridge_is_drawn_again_and_the_tries_are_counted(plan, dr
     assert draws.count_rejects({1: after}) == {"no fire in view": 2}
     assert (after.kind, after.camera.kind, after.run) == (before.kind, before.camera.kind, before.run)
     assert after.values["blur"] != before.values["blur"]
+
+
+def test_a_camera_in_the_smoke_is_drawn_again(drawer, monkeypatch):
+    scene, time = drawer.scene("a"), drawer.moments("a")[2]
+    front = scene.front(time).mean(axis=0)
+    level = rotation.turned(scene.ground.frame, front, 270.0, 0.0, 0.0)  # against the wind
+    downwind, upwind = (front + np.array([east, 0.0, 60.0]) for east in (150.0, -2500.0))
+    monkeypatch.setattr(RunScene, "veil", VEIL)
+    lens = placement.Lens((0.5, 0.4), 0.0, 0.0)
+    inside, outside = (scene.veil(time, eye, level, lens.half, 100.0) for eye in (downwind, upwind))
+    assert (outside, inside > 0.3) == (0.0, True)
+    with pytest.raises(placement.Rejected, match="in the smoke"):
+        placement.check_fire(scene, placement.Pose(downwind, level), time, lens, 400.0, allow_hidden=True)
 
 
 def test_a_plan_whose_cameras_all_fail_names_the_reason(plan, drawer):

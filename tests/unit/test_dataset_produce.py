@@ -8,9 +8,10 @@ import fake_samples
 import pytest
 import small_plan
 from firetwin.dataset import about, estimate, produce, record
+from firetwin.dataset.run_scene import RunScene
 from firetwin.errors import InputError, UsageError
 
-COUNT = 24
+COUNT = 16
 
 
 class Killed(BaseException):
@@ -33,6 +34,14 @@ def _quick(monkeypatch):
     monkeypatch.setattr(produce, "_POLL_INTERVAL", 0.01)
 
 
+@pytest.fixture(autouse=True, scope="module")
+def _clear():
+    """Solve no smoke."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(RunScene, "veil", lambda *_: 0.0)
+        yield
+
+
 @pytest.fixture(scope="module")
 def undisturbed(plan, tmp_path_factory):
     out = tmp_path_factory.mktemp("whole") / "set"
@@ -52,7 +61,7 @@ def test_all_samples_are_made_once_with_their_record(plan, undisturbed, tmp_path
     assert len(fake_samples.log(out)) == COUNT
 
 
-@pytest.mark.parametrize("stop", [1, 5, 13])
+@pytest.mark.parametrize("stop", [1, 9])
 def test_an_interrupted_data_set_continues_to_the_same_files(plan, undisturbed, tmp_path, stop):
     out = tmp_path / "set"
 
@@ -95,8 +104,8 @@ def test_two_producers_share_the_visits(plan, undisturbed, tmp_path, monkeypatch
 
 def test_samples_alone_equal_those_of_the_data_set(plan, undisturbed, tmp_path):
     out = tmp_path / "set"
-    produce.run(produce.prepare(plan, out, "0017,3"), fake_samples.make)
-    assert sorted(fake_samples.log(out)) == [3, 17]
+    produce.run(produce.prepare(plan, out, "0011,3"), fake_samples.make)
+    assert sorted(fake_samples.log(out)) == [3, 11]
     made = {path: data for path, data in fake_samples.content(out).items() if "/" in path}
     assert len(made) == 2 * 12
     assert made.items() <= undisturbed.items()
@@ -115,9 +124,9 @@ def test_a_folder_of_another_plan_is_refused_with_the_changes(plan, tmp_path):
         produce.run(produce.prepare(plan, out), fake_samples.make)
 
 
-@pytest.mark.parametrize("only", ["0", "25", "x", "3-1"])
+@pytest.mark.parametrize("only", ["0", "17", "x", "3-1"])
 def test_samples_that_do_not_exist_are_refused(plan, tmp_path, only):
-    with pytest.raises(UsageError, match="samples are numbered 1 to 24"):
+    with pytest.raises(UsageError, match="samples are numbered 1 to 16"):
         produce.prepare(plan, tmp_path, only)
 
 
