@@ -135,3 +135,9 @@ def status(folder: Path) -> dict[str, Any]:
 def is_final(folder: Path) -> bool:
     """Return whether no further times follow: the model ended or failed."""
     return status(folder).get("state") in FINAL
+
+
+def of_revision(run: Path) -> Path | None:
+    """Return the watched folder of a revision; None for other runs."""
+    folder = run.parent.parent
+    return folder if run.parent.name.startswith("generation_") and is_watched(folder) else None
