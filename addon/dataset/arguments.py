@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
-VERBS = ("make", "formats", "check")
+VERBS = ("make", "formats", "check", "draw")
 _MAKE = VERBS[0]
 _FORMATS = "coco,yolo"
 
@@ -19,6 +19,7 @@ has a picture, its twin without smoke, alpha of smoke, depth, classes, a thermal
   firetwin dataset PLAN.toml --out DIR --only 0137  make these samples alone
   firetwin dataset formats DIR --format yolo,voc    write a finished data set in other formats
   firetwin dataset check DIR                        check files, hashes, labels, formats and splits
+  firetwin dataset draw DIR --out FOLDER            draw the labels of samples onto their pictures
 
 Several processes, also on several machines, can make one data set at the same time. A stopped process loses
 only the samples that it had not finished. `examples/dataset.toml` shows every key of a plan."""
@@ -53,5 +54,9 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path]) -> None:
         help = f"formats of the labels, such as coco,yolo,voc, or all ({_FORMATS})"
         each.add_argument("--format", metavar="LIST", default=_FORMATS, help=help)
     check = verb("check", "check a finished data set; the exit status is 1 if it has faults")
-    for each in (formats, check):
+    draw = verb("draw", "draw the labels of samples onto their pictures")
+    draw.add_argument("--out", metavar="FOLDER", type=path, required=True, help="folder of the pictures, PNG")
+    help = "samples to draw, such as 0137 or 1-20 (24 of them)"
+    draw.add_argument("--only", metavar="LIST", default="", help=help)
+    for each in (formats, check, draw):
         each.add_argument("folder", metavar="DIR", type=path, help="folder of the data set")

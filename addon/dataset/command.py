@@ -9,7 +9,7 @@ from typing import Any
 
 from ..progress import Reporter, count, result, say
 from ..shot.schema.frame_list import FrameList
-from . import check, finish, formats, plan_file, produce, sample_job
+from . import check, draw_labels, finish, formats, plan_file, produce, sample_job
 from .draws import count_rejects
 from .plan import SPLITS
 from .produce import Production
@@ -20,6 +20,10 @@ def run(arguments: argparse.Namespace) -> int:
     """Run the requested verb; returns the exit status."""
     if arguments.verb == "check":
         return _check(arguments.folder)
+    if arguments.verb == "draw":
+        for path in draw_labels.write(arguments.folder, arguments.only, arguments.out):
+            result(path)
+        return 0
     names = formats.names(arguments.format)
     if arguments.verb == "formats":
         _finish(arguments.folder, names)

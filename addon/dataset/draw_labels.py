@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import files as atomic
+from ..errors import UsageError, input_error
+from ..shot.schema.frame_list import FrameList
 from . import components, files, truth
 from .files import Masks
 from .truth import Annotation, Box, Truth
@@ -16,6 +20,9 @@ if TYPE_CHECKING:
     from PIL.ImageDraw import ImageDraw
 
 Picture = NDArray[np.uint8]
+
+MOST = 24
+"""Maximum number of samples that are drawn without a list."""
 
 _COLOURS = {truth.FIRE: (255, 208, 0), truth.SMOKE: (0, 200, 255)}
 _FRONT, _HORIZON = (255, 64, 160), (96, 255, 96)
@@ -38,6 +45,47 @@ def draw_sample(folder: Path, index: int, kind: str = "images") -> Picture:
         A file is missing or damaged.
     """
     return draw(files.read(folder, kind, index), truth.read(folder, index), files.read_masks(folder, index))
+
+
+def write(folder: Path, only: str, out: Path) -> Iterator[Path]:
+    """Draw the labels of samples of a data set into files ``000137.png`` of a folder, and yield their paths.
+
+    Parameters
+    ----------
+    only
+        Frame list of numbers of samples; "": `MOST` of them, evenly spaced.
+
+    Raises
+    ------
+    InputError
+        The folder has no data set, or a file is missing or damaged.
+    UsageError
+        The list is invalid.
+    """
+    from PIL import Image
+
+    known = list(truth.indices(folder))
+    if not known:
+        raise input_error(folder, "has no samples; make some with: firetwin dataset PLAN.toml --out DIR")
+    for index in _chosen(known, only):
+        picture, path = draw_sample(folder, index), out / f"{truth.stem(index)}.png"
+        atomic.write(path, Image.fromarray(picture).save)
+        yield path
+
+
+def _chosen(known: list[int], only: str) -> list[int]:
+    """Choose samples by a list, or evenly spaced ones without a list."""
+    if not only.strip():
+        return known[:: -(-len(known) // MOST)]
+    try:
+        wanted = FrameList(only).frames(known[-1])
+    except ValueError:
+        raise UsageError(
+            f"--only: samples are numbered 1 to {known[-1]}; write it like 137 or 1-20"
+        ) from None
+    if missing := sorted({*wanted} - {*known}):
+        raise UsageError(f"--only: sample {missing[0]} is not finished; make it first")
+    return wanted
 
 
 def draw(picture: Picture, labelled: Truth, masks: Masks) -> Picture:

@@ -34,7 +34,7 @@ _HIDDEN = 2.0  # m, height of the ground above a line of sight that hides its en
 _NEAR = 1.0  # m before the camera
 _DIGITS = 6  # of degrees in GeoJSON: 0.1 m
 _ISLAND = 600.0  # s, weight of the unburned share of ground compared with time to its arrival
-_SIMPLIFIED = 5.0  # m, largest deviation of the front in GeoJSON
+_SIMPLIFIED = 0.25  # cells, largest deviation of the front in GeoJSON
 _PER_DEGREE = 111_000.0  # m
 
 
@@ -54,6 +54,8 @@ class Place:
         Closed lines of the front (n, 2), degrees east and north.
     ignition
         Model time of the first fire, s; None without fire.
+    tolerance
+        Maximum deviation of the simplified front, m.
     """
 
     georeference: Georeference
@@ -61,6 +63,7 @@ class Place:
     burns: Callable[[Array, Array], Mask]
     front: tuple[Line, ...] = ()
     ignition: float | None = None
+    tolerance: float = 5.0
 
     def height_above_sea(self, points: Array) -> Array:
         """Compute heights (n,) above mean sea level of local points (n, 3), m."""
@@ -78,7 +81,7 @@ class Place:
         if not self.front:
             return None
         latitude = np.radians(self.georeference.latitude)
-        scale = _PER_DEGREE / _SIMPLIFIED * np.array([np.cos(latitude), 1.0])
+        scale = _PER_DEGREE / self.tolerance * np.array([np.cos(latitude), 1.0])
         lines = [np.round(fronts.simplify(line, scale), _DIGITS).tolist() for line in self.front]
         return {"type": "MultiLineString", "coordinates": lines}
 
@@ -92,7 +95,8 @@ def of_shot(shot: Shot, time: float) -> Place:
         row, column = ground.indices(*ground.geodetic(x, y))
         return ground.arrival_at(row, column) <= time + BURN_TIME
 
-    return Place(georeference.resolve(shot), shot.ground.up, burns, _front(ground, time), first)
+    tolerance = _SIMPLIFIED * min(ground.cell)
+    return Place(georeference.resolve(shot), shot.ground.up, burns, _front(ground, time), first, tolerance)
 
 
 def _front(ground: Terrain, time: float) -> tuple[Line, ...]:

@@ -234,7 +234,7 @@ def path(folder: Path, index: int) -> Path:
 
 
 def write(folder: Path, truth: Truth) -> Path:
-    """Write the metadata of a sample; equal truths give equal bytes.
+    """Write the metadata of a sample, one value on a line; equal truths give equal bytes.
 
     Raises
     ------
@@ -242,9 +242,9 @@ def write(folder: Path, truth: Truth) -> Path:
         A number is infinite or NaN.
     """
     written = path(folder, truth.index)
-    files.write_text(
-        written, json.dumps({"format": FORMAT} | asdict(truth), indent=1, allow_nan=False) + "\n"
-    )
+    content = {"format": FORMAT} | asdict(truth)
+    lines = (f"{json.dumps(name)}: {json.dumps(value, allow_nan=False)}" for name, value in content.items())
+    files.write_text(written, "{" + ",\n ".join(lines) + "}\n")
     return written
 
 

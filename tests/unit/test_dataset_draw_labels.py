@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import plain_samples
 import pytest
+from firetwin import cli
 from firetwin.dataset import draw_labels, files, labels, sensor, truth
 from firetwin.dataset.files import Masks
 from firetwin.dataset.truth import Annotation
@@ -78,11 +79,42 @@ def test_captions_name_what_is_known(more, words):
     assert draw_labels.caption(replace(annotation(3, truth.SMOKE, (0, 0, 1, 1)), **more)) == words
 
 
-def test_a_sample_of_a_data_set_is_drawn_from_its_files(tmp_path):
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Write a data set of the samples 4, 5 and 30."""
+    folder = tmp_path_factory.mktemp("set")
     sample = plain_samples.plane(plain_samples.looking(-3.0, size=(160, 120)))
-    label, masks = labels.label(sample, plain_samples.flat_place(), 4)
     sensed = sensor.apply(sample, sensor.SensorSettings(), {"noise": 1, "thermal noise": 2})
-    files.write(tmp_path, label, masks, sample, sensed)
+    for index in (4, 5, 30):
+        label, masks = labels.label(sample, plain_samples.flat_place(), index)
+        files.write(folder, label, masks, sample, sensed)
+    return folder
+
+
+def test_a_sample_of_a_data_set_is_drawn_from_its_files(folder):
     for kind in ("images", "clean", "palette"):
-        found = draw_labels.draw_sample(tmp_path, 4, kind)
+        found = draw_labels.draw_sample(folder, 4, kind)
         assert (found == draw_labels._HORIZON).all(axis=-1).sum() > 100
+
+
+def test_the_command_draws_the_samples_of_a_list(folder, tmp_path, capsys):
+    assert cli.main(["dataset", "draw", str(folder), "--out", str(tmp_path / "seen"), "--only", "4,30"]) == 0
+    assert sorted(path.name for path in (tmp_path / "seen").iterdir()) == ["000004.png", "000030.png"]
+    assert capsys.readouterr().out.split()[0].endswith("000004.png")
+
+
+@pytest.mark.parametrize("only", ["31", "x", "6"])
+def test_samples_that_do_not_exist_have_a_remedy(folder, tmp_path, only, capsys):
+    assert cli.main(["dataset", "draw", str(folder), "--out", str(tmp_path), "--only", only]) == 2
+    assert "--only: sample" in capsys.readouterr().err
+
+
+def test_an_empty_folder_has_no_samples_to_draw(tmp_path, capsys):
+    assert cli.main(["dataset", "draw", str(tmp_path), "--out", str(tmp_path / "seen")]) == 1
+    assert "has no samples; make some" in capsys.readouterr().err
+
+
+def test_at_most_24_samples_are_drawn_without_a_list():
+    assert draw_labels._chosen(list(range(1, 25)), "") == list(range(1, 25))
+    assert len(draw_labels._chosen(list(range(1, 201)), "")) == 23
+    assert draw_labels._chosen([7], " ") == [7]
