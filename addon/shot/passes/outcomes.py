@@ -2,9 +2,9 @@
 
 Each run is a member of the forecast. Its pictures are shown for 1.5 s, then the pictures of the next one,
 at the running clock of the film; after the last comes the first. The bar at the top has a part for each
-run, and the shown one is white. A film of nearly one moment (`time.start` and `time.end` a minute apart)
-compares outcomes at this moment. Draws of 0.4 s could be followed in studies, and 0.1 s were too short
-(Kale et al., 2019).
+run, and the shown one is white; a counter names the member, its roles, and the area that it has burned. A
+film of nearly one moment (`time.start` and `time.end` a minute apart) compares outcomes at this moment.
+Draws of 0.4 s could be followed in studies, and 0.1 s were too short (Kale et al., 2019).
 """
 
 from __future__ import annotations
