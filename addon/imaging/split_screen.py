@@ -190,6 +190,8 @@ def _swatch(figure: Figure, colour: str, box: tuple[float, float, float], unit: 
 def _text(figure: Figure, x: float, y: float, text: str, size: float, side: str = "left") -> None:
     """Draw text `size` pixels high, vertically centred on y (pixels from the top), from or up to x."""
     width, height = figure.get_size_inches() * _DPI
+    if side == "right":  # text with an outline is drawn wider than it is laid out
+        x -= 0.04 * 0.62 * size * len(text)
     said = figure.text(
         x / width, 1.0 - y / height, text, size=size * 72.0 / _DPI, color="white", family="DejaVu Sans",
         va="center", ha=side,

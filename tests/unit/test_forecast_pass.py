@@ -89,11 +89,13 @@ def test_twenty_members_have_five_classes_of_four():
 
 
 def test_colours_differ_by_lightness_alone_and_are_not_those_of_flames():
-    shades = np.array([_forecast_drawing.values(each) for each in _forecast_text.COLOURS])
+    shades = np.array([_forecast_drawing.values(each) for each in _forecast_drawing.COLOURS])
     linear = np.where(shades > 0.04045, ((shades + 0.055) / 1.055) ** 2.4, shades / 12.92)
     lightness = 116.0 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16.0  # CIELAB
     assert (np.diff(lightness) > 10.0).all()
     assert (shades[:, 2] > shades[:, 0]).all()
+    drawn = np.array([_forecast_drawing.values(each) for each in _forecast_drawing.swatches(20)])
+    assert (np.diff(drawn @ [0.2126, 0.7152, 0.0722]) > 0.03).all()
 
 
 def test_the_lines_of_a_scene_file_are_the_usual_number():
@@ -376,6 +378,7 @@ def test_a_split_names_each_member_with_its_area_and_has_one_legend(scene, tmp_p
         assert key[1][1].endswith(" ha) burned")
     assert keys[3][0] == ("", "burned by 21:47 in")
     assert not any("front" in words for _, words in keys[3])
+    assert ("", "3 of 4 members shown, colours count all") in keys[3]
     assert said[-2:] == ["issued 16 Sep 2014 21:45 PDT", "valid 16 Sep 2014 21:47 PDT"]
 
 

@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import composite
-from . import _forecast_text
 
+COLOURS = ("#2b3a8f", "#3f6fc0", "#5aa2d8", "#93d0e8", "#e6f7ff")
+"""Colours of the classes, fewest members first. Their lightness ascends, so that they differ without hue."""
 _TINT = 0.7  # opacity of the tint (by eye)
 _FEW, _MANY = 0.1, 1.0  # strength of the tint for the fewest and the most members (by eye)
+_GROUND = 0.25  # brightness of medium ground in pictures, 0 to 1 (by eye)
 _GREY = 0.8  # factor on the grey picture's brightness below it (by eye)
 _FULL = 540  # rows from which on lines are opaque: on fewer they would be too heavy (by eye)
 _CASING = 0.45  # opacity of the dark edge of a line (by eye)
@@ -23,7 +25,16 @@ Array = NDArray[np.float32]
 
 def palette(members: int) -> tuple[str, ...]:
     """Choose the colours of the classes, fewest members first: five, or one for each of fewer members."""
-    return _forecast_text.COLOURS[: max(min(members, len(_forecast_text.COLOURS)), 1)]
+    return COLOURS[: max(min(members, len(COLOURS)), 1)]
+
+
+def swatches(members: int) -> list[str]:
+    """Return the colours of the classes as they appear on ground of medium brightness, fewest first."""
+    colours = palette(members)
+    kinds = np.arange(1, len(colours) + 1)[None]
+    ground = np.full((1, len(colours), 3), _GROUND, np.float32)
+    shown = tint(ground, kinds, colours, np.ones(kinds.shape, np.float32))[0]
+    return ["#" + "".join(f"{round(255.0 * float(value)):02x}" for value in colour) for colour in shown]
 
 
 def classes(counts: NDArray[np.int64], members: int) -> NDArray[np.int64]:

@@ -14,9 +14,8 @@ from ...run.ensemble.ensemble import Ensemble
 from ...shot import forecast
 from ...shot.shot import Shot
 from ...shot.surface.fronts import COLOURS as FRONTS
+from ._forecast_drawing import swatches
 
-COLOURS = ("#2b3a8f", "#3f6fc0", "#5aa2d8", "#93d0e8", "#e6f7ff")
-"""Colours of the classes, fewest members first. Their lightness ascends, so that they differ without hue."""
 SHOWN, OUTLIER, LINE, HATCH = *FRONTS[:2], "#ffffff", "#d8d8d8"
 _LONGEST = 40  # characters of a model's name
 _KINDS = {"forecast": "member", "scenarios": "scenario", "ranked": "size rank", "ignitions": "ignition"}
@@ -95,21 +94,23 @@ def burned(area: float) -> str:
     return f"{area / info.ACRE:,.0f} acres ({area / 1e4:,.0f} ha) burned"
 
 
-def legend(shot: Shot, counts: Counts, fronts: bool = True) -> list[Key]:
-    """Explain colours, lines and hatching; without `fronts`, colours and hatching alone."""
+def legend(shot: Shot, counts: Counts, parts: int = 1) -> list[Key]:
+    """Explain colours, lines and hatching; for several parts of a split screen, without lines."""
     found, kind, count = counts.ensemble, counts.kind, counts.count
     total = len(found.members)
     clock = f"{counts.moment.astimezone(ZoneInfo(shot.settings.time.zone)):%H:%M}"
     keys: list[Key] = []
     if shares := shot.settings.forecast.shares:
-        colours = COLOURS[: max(min(count, len(COLOURS)), 1)]
+        colours = swatches(count)
         steps = list(zip(colours, ranges(count, len(colours)), strict=True))
         classes = [(colour, f"{k} of {count}") for colour, k in steps[::-1]]
         classes[0] = classes[0][0], f"{classes[0][1]} {kind}s"
         keys += [("", f"burned by {clock} in"), *classes]
         if len({member.weight for member in found.members}) > 1:
             keys.append(("", "members count equally, weights not used"))
-    if fronts:
+    if parts > 1:
+        keys.append(("", f"{parts} of {total} {kind}s shown{', colours count all' * shares}"))
+    else:
         keys.append((_LINED + SHOWN, f"front of {kind} {found.members[counts.shown].name}, burning"))
         keys += _lines(counts, ", colours count all" if shares else "")
     if counts.hatched:

@@ -16,7 +16,7 @@ from ...shot.shot import Shot
 from . import Files, _forecast_ground, _forecast_text
 from ._forecast_ground import Ground
 
-_EMPTY = 0.07  # grey level behind the legend
+_EMPTY = 0.25  # grey level behind the legend: as bright as the ground
 
 
 def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
@@ -29,7 +29,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         area = float(info.burned(run, [times.seconds(run, moment)])[0])
         keys.append(_forecast_text.part(grounds[-1].counts, area))
     pictures, marks = [ground.rgb for ground in grounds], [ground.marks for ground in grounds]
-    legend = _forecast_text.legend(shot, grounds[0].counts, fronts=False)
+    legend = _forecast_text.legend(shot, grounds[0].counts, len(grounds))
     if len(pictures) == 3:
         pictures.append(np.full_like(pictures[0], _EMPTY))
         keys.append(legend)
