@@ -116,6 +116,7 @@ class _VisitScene:
         clouds.build(shot, stage, drawn)
         night_lamps.build(shot, stage, drawn)
         layers.complete(shot.settings, stage, (*_MOVED, "labels"))
+        stage.scene.cycles.denoising_quality = "FAST"  # the sensor adds noise and blur afterwards
         sampled = stage.scene.world.cycles
         sampled.sampling_method, sampled.sample_map_resolution = "MANUAL", _SKY_MAP
         stage.scene.cycles.seed = shot.settings.render.seed
