@@ -188,7 +188,7 @@ class _Film:
     def _cache(self) -> Path:
         """Return the cache, without the smoke of earlier known runs, which no other render can use.
 
-        Selected tiles are kept in the cache of the scene file.
+        Selected tiles stay in the cache of the scene file.
         """
         if self.settings.tiles.sources:
             return self.settings.cache.absolute()
