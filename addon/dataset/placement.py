@@ -14,7 +14,8 @@ from .sites import Tower
 
 _NEAREST = 20.0  # m, least distance of a camera from the front (assumed)
 _PLUME = 300.0  # m, height above the front at which smoke is expected (assumed)
-_NEAR, _VEIL = 0.25, 0.3  # share of the distance to the target, up to which smoke may have this mean opacity
+# Parts of the distance to the target, and largest mean opacity of smoke in the picture up to there (by eye)
+_VEILS = (0.25, 0.3), (1.0, 0.8)
 _EDGE = 0.98  # place of a fire that the edge of the picture cuts
 
 Array = NDArray[np.float64]
@@ -119,5 +120,6 @@ def check_fire(
     points = np.concatenate([front, front + np.array([0.0, 0.0, _PLUME])]) if allow_hidden else front
     if not scene.visible(points, *pose, lens.half).any():
         raise Rejected("no fire in view")
-    if scene.veil(time, *pose, lens.half, _NEAR * distance) > _VEIL:
-        raise Rejected("in the smoke")
+    for part, most in _VEILS:
+        if scene.veil(time, *pose, lens.half, part * distance) > most:
+            raise Rejected("in the smoke")

@@ -129,6 +129,8 @@ def _produce(
     production: Production, held: Leases, make: Maker, progress: Progress, tell: MessageCallback
 ) -> None:
     total, waiting = len(production.wanted), False
+    if not production.unfinished():
+        progress(total, total, SAMPLES)
     while unfinished := production.unfinished():
         others = held.of_others()
         free = (visit for visit in unfinished if _name(visit) not in others and held.take(_name(visit)))
@@ -156,7 +158,6 @@ def _produce(
                     raise RuntimeError(f"sample {still[0]} was not written")
         finally:
             held.release(_name(visit))
-    progress(total, total, SAMPLES)
 
 
 def _about(plan: Plan) -> About:

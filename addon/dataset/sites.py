@@ -13,6 +13,8 @@ from .run_scene import TREE, RunScene
 
 _CANDIDATES = 12  # points per tower, of which the highest ground is chosen (assumed)
 _SECTOR = 40.0  # degrees, width of the sector of the candidates of a tower (assumed)
+_AROUND = [(0.0, 0.0), (60.0, 0.0), (-60.0, 0.0), (0.0, 60.0), (0.0, -60.0)]
+"""Points around a tower at which trees count, m (assumed)."""
 
 Array = NDArray[np.float64]
 
@@ -46,7 +48,8 @@ def towers(plan: Plan, name: str, scene: RunScene) -> list[Tower]:
         angles = np.radians(turns)
         east, north = middle[0] + distance * np.sin(angles), middle[1] + distance * np.cos(angles)
         up = scene.ground.up(east, north)
-        trees = np.where(scene.trees(east, north), TREE, 0.0)
+        around = [scene.trees(east + x, north + y) for x, y in _AROUND]
+        trees = np.where(np.any(around, axis=0), TREE, 0.0)
         best = int(np.argmax(up - trees))
         mast = plan.draws["mast"].quantile(value("mast")) + trees[best]
         found.append(Tower(f"tower-{site + 1}", np.array([east[best], north[best], up[best] + mast])))
