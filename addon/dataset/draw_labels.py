@@ -101,8 +101,11 @@ def draw(picture: Picture, labelled: Truth, masks: Masks) -> Picture:
         pen.line(line, fill=_HORIZON)
     for line in labelled.front:
         pen.line(line, fill=_FRONT)
+    taken = [each.box for each in labelled.annotations]
     for each in labelled.annotations:
-        _draw_annotation(pen, each, *picture.shape[:2])
+        _draw_boxes(pen, each)
+    for each in labelled.annotations:
+        taken.append(_draw_caption(pen, each, taken, *picture.shape[:2]))
     return np.array(image)
 
 
@@ -136,22 +139,42 @@ def _tint(picture: Picture, layer: NDArray[np.uint8], colour: tuple[int, int, in
     picture[outline] = colour
 
 
-def _draw_annotation(pen: ImageDraw, each: Annotation, height: int, width: int) -> None:
-    """Draw the boxes of an annotation, and its caption: of smoke above the box, of fire below it."""
+def _draw_boxes(pen: ImageDraw, each: Annotation) -> None:
+    """Draw the box of an annotation, and its amodal box if that is larger."""
+    _rectangle(pen, each.box, _COLOURS[each.category])
+    if each.amodal_box != each.box:
+        _dashed(pen, each.amodal_box, _COLOURS[each.category])
+
+
+def _draw_caption(pen: ImageDraw, each: Annotation, taken: list[Box], height: int, width: int) -> Box:
+    """Draw the caption of an annotation next to its box, where it covers the fewest others; return its box.
+
+    Smoke prefers places above its box, fire below.
+    """
     from PIL import ImageFont
 
-    colour = _COLOURS[each.category]
-    _rectangle(pen, each.box, colour)
-    if each.amodal_box != each.box:
-        _dashed(pen, each.amodal_box, colour)
     size = max(_TEXT * width // 640, 8)
     font, words = ImageFont.load_default(size), caption(each)
-    long = pen.textlength(words, font=font)
-    x, top, _, bottom = each.box
-    y = top - size - 3 if each.category == truth.SMOKE else bottom
-    x, y = max(min(x, width - long - 4), 0.0), min(max(y, 0.0), height - size - 3)
-    pen.rectangle((x, y, x + long + 3, y + size + 2), fill=(0, 0, 0))
-    pen.text((x + 2, y), words, fill=colour, font=font)
+    long, line = pen.textlength(words, font=font) + 3, size + 3
+    x0, top, x1, bottom = each.box
+    above, below = ([first + step * line for step in range(4)] for first in (top - 4 * line, bottom))
+    rows = [*above[::-1], *below] if each.category == truth.SMOKE else [*below, *above[::-1]]
+    places = [
+        (max(min(x, width - long - 1), 0.0), min(max(y, 0.0), height - line))
+        for y in rows
+        for x in (x0, x1 - long)
+    ]
+    boxes = [(x, y, x + long, y + line - 1) for x, y in places]
+    found = min(boxes, key=lambda box: sum(_overlap(box, other) for other in taken if other != each.box))
+    pen.rectangle(found, fill=(0, 0, 0))
+    pen.text((found[0] + 2, found[1]), words, fill=_COLOURS[each.category], font=font)
+    return found
+
+
+def _overlap(one: Box, other: Box) -> float:
+    """Compute the common area of two boxes."""
+    wide, high = (min(one[k + 2], other[k + 2]) - max(one[k], other[k]) for k in (0, 1))
+    return max(wide, 0.0) * max(high, 0.0)
 
 
 def _rectangle(pen: ImageDraw, box: Box, colour: tuple[int, int, int]) -> None:

@@ -9,6 +9,7 @@ from firetwin import cli
 from firetwin.dataset import draw_labels, files, labels, sensor, truth
 from firetwin.dataset.files import Masks
 from firetwin.dataset.truth import Annotation
+from PIL import Image, ImageDraw
 
 FIRE, SMOKE = (draw_labels._COLOURS[each] for each in (truth.FIRE, truth.SMOKE))
 BLACK = np.zeros((120, 160, 3), np.uint8)
@@ -64,6 +65,17 @@ def test_lines_are_drawn():
 @pytest.mark.parametrize("category", [truth.FIRE, truth.SMOKE])
 def test_captions_at_the_edges_stay_in_the_picture(box, category):
     assert drawn(annotation(1, category, box)).shape == BLACK.shape
+
+
+def test_captions_of_close_boxes_do_not_cover_each_other():
+    near = [annotation(k, truth.SMOKE, (60.0 + 8 * k, 60.0, 66.0 + 8 * k, 70.0)) for k in range(1, 5)]
+    pen, taken = ImageDraw.Draw(Image.fromarray(BLACK)), [each.box for each in near]
+    captions = []
+    for each in near:
+        captions.append(draw_labels._draw_caption(pen, each, taken + captions, 120, 160))
+    for k, each in enumerate(captions):
+        for other in captions[:k] + [box for box in taken if box != near[k].box]:
+            assert draw_labels._overlap(each, other) == 0.0
 
 
 @pytest.mark.parametrize(
