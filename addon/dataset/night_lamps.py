@@ -10,7 +10,7 @@ from ..scene.labels import town_lights
 from ..shot.shot import Shot
 from .draw import Draw
 
-_HEIGHT = 6.0  # m
+_HEIGHT, _MAST, _CANOPY = 6.0, 30.0, 0.01  # m; m amid trees, and kg/m2 from which there are trees
 _REACH = np.geomspace(30.0, 15_000.0, 200)  # m, distances at which a ray is tested against the ground
 _TRIES = 8  # rays for each lamp: rays to the sky and to places too close meet none
 _WARM, _COOL, _COLD = (1.0, 0.62, 0.30), (0.85, 0.92, 1.0), 0.4  # sodium and white lamps; share of these
@@ -25,7 +25,8 @@ def build(shot: Shot, stage: Stage, drawn: Draw) -> None:
     random = np.random.default_rng(drawn.random_seed("lamps"))
     centre = _seen_places(shot, random, drawn.lamps)
     cool = random.uniform(size=(len(centre), 1)) < _COLD
-    bright = np.exp(random.uniform(*np.log(_LIGHT), (len(centre), 1)))
+    low, high = np.log(_LIGHT)
+    bright = np.exp(random.uniform(low, high, (len(centre), 1)))
     if len(centre):
         town_lights.place_lamps(shot, collection, centre, np.where(cool, _COOL, _WARM) * bright)
 
@@ -42,5 +43,6 @@ def _seen_places(shot: Shot, random: np.random.Generator, count: int) -> NDArray
     below = way[..., 2] < ground
     hit = below.any(axis=0) & ~below[0]
     place = way[below.argmax(axis=0), np.arange(len(along))][hit][:count]
-    place[:, 2] = shot.ground.up(*place[:, :2].T) + _HEIGHT
+    canopy = shot.ground.sample(shot.ground.fields.canopy_fuel, *place[:, :2].T)
+    place[:, 2] = shot.ground.up(*place[:, :2].T) + np.where(canopy > _CANOPY, _MAST, _HEIGHT)
     return place

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from firetwin_core import sensor, volume
@@ -21,9 +21,10 @@ Array = NDArray[np.float32]
 
 _MIDDLE = ((0.5, 0.5),)  # one marched ray in a pixel: smoke is smooth within four pixels
 _WHITE = 1.2  # as in `render.eye`
-_STEP = 1.0  # voxels, step along the rays that measure the distance of smoke
+_STEP = 1.0  # voxels, step along rays; half of it, as in films, takes twice the time
 _SPARSE = 2  # pixels along a block with one of these rays; pictures have even sides
 _SEEN = 0.01  # opacity of smoke from which it has a distance
+_OPAQUE = 0.05  # transmittance below which smoke can hide all flames
 _CLEAR = 0.999  # transmittance above which infrared smoke is not marched
 _NEAREST, _FARTHEST, _TAPS = 5.0, 6.0e4, 40  # m; distances along a ray at which opacity is known
 
@@ -42,6 +43,11 @@ class Light(NamedTuple):
 class SampleEye(Eye):
     """Eye that computes the maps of a sample."""
 
+    def __init__(self, *arguments: Any, **more: Any) -> None:
+        super().__init__(*arguments, **more)
+        if self.flames is None:  # flames need the short steps of films
+            self.step = _STEP
+
     def light(self) -> Light:
         """Compute the picture with smoke and without, and their parts."""
         rendered = self._surfaces()
@@ -52,12 +58,24 @@ class SampleEye(Eye):
         clear = 1.0 - composite.smoke_opacity(rendered, at, marched)
         if not self.smoke:
             self.has_smoke_or_flames = _around(composed.fire.max(axis=-1) > 0.0)
-            return Light(*(2 * [composed.picture]), composed.smoke, *(2 * [composed.fire]), clear)
-        smoke, self.smoke = self.smoke, []
-        twin = self._compose(rendered, at, self._march_taps(at, True, _MIDDLE))
-        self.smoke = smoke
+            picture, fire = composed.picture, composed.fire
+            return Light(picture, picture, composed.smoke, fire, fire, clear)
+        twin = self._compose(rendered, at, self._march_flames(at, marched))
         self.has_smoke_or_flames = _around((clear < _CLEAR) | (twin.fire.max(axis=-1) > 0.0))
         return Light(composed.picture, twin.picture, composed.smoke, composed.fire, twin.fire, clear)
+
+    def _march_flames(self, at: Array, marched: Array) -> Array:
+        """March flames without smoke, where the march of both (h, w, taps, 8) met flames or opaque smoke."""
+        found = np.zeros_like(marched)
+        found[..., 3::4] = 1.0
+        if self.flames is None:
+            return found
+        met = (marched[..., 4:7] != 0.0).any(axis=-1) | (marched[..., 7] < _OPAQUE)
+        chosen = _around(met.any(axis=-1))
+        if chosen.any():
+            rays = self.rays
+            found[chosen] = self._march([], rays.origins, rays.directions[chosen], at[chosen], parts=True)
+        return found
 
     def _compose(self, rendered: composite.Surfaces, at: Array, marched: Array) -> composite.Layers:
         white = 2.0**-self.stage.scene.view_settings.exposure

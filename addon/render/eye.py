@@ -71,6 +71,7 @@ class Eye:
     ) -> None:
         self.shot, self.stage, self.channels = shot, stage, channels
         self.smoke, self.flames, self.outline = smoke, flames, outline
+        self.step = _STEP
         self._burning: dict[str, Any] = {} if flames is None else {"flames": flames}
         self.number = number
         height, width = self.shape = next(iter(channels.values())).shape[:2]
@@ -130,7 +131,7 @@ class Eye:
     ) -> Array:
         """March rays through smoke and flames, with the detail that pixels resolve."""
         pixel, more = self.rays.pixel, self._burning | ({"parts": True} if parts else {})
-        return volume.march(smoke, origins, directions, ends, self._light, _STEP, pixel=pixel, **more)
+        return volume.march(smoke, origins, directions, ends, self._light, self.step, pixel=pixel, **more)
 
     def _text_layer(self, rendered: composite.Surfaces, at: Array, text: Channels) -> Array:
         """Compute the layer (h, w, 4) of text, with the smoke and flames in front of it."""
