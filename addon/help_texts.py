@@ -51,7 +51,7 @@ DIR/times.json              accepted times: file, reason, hash of the values
 DIR/status.json, index.html state: waiting, running, stalled, ended, failed or restarted
 DIR/generation_1/000012     run of the first 12 times
 
-DIR is accepted wherever a run is; its newest times are read. If the model starts again, generation_2 begins.
+Commands accept DIR as a run; its newest times are read. If the model starts again, generation_2 begins.
 3D fields are not converted; use `convert` when the model has ended. Repeating the command continues a watch.
 The exit status is 1 if the model failed."""
 

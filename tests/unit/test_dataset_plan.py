@@ -82,7 +82,7 @@ distance_drone = { kind = "log_uniform", low = 100, high = 900 }
         ('run = "b"\n', "", "8:3: runs.run is missing"),
         ("weight = 2", 'name = "B"', '8:3: two runs are called "b"'),
         ("weight = 2", 'split = "tests"', '7:1: runs.split must be "any", "train", "val" or "test"'),
-        ("weight = 2", "[draws]\nblurr = 2", '8:1: unknown value "blurr" in [draws]; did you mean "blur"?'),
+        ("weight = 2", "[draws]\nblus = 2", '8:1: unknown value "blus" in [draws]; did you mean "blur"?'),
         (
             "weight = 2",
             '[draws]\nblur = { kind = "normal" }',

@@ -119,6 +119,7 @@ for name in sys.argv[1:]:
 ABOUT_ALL = {
     "floors",
     "handlers",
+    "notebooks",
     "processor_time",
     "prose",
     "ragged_spread",
