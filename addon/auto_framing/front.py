@@ -155,7 +155,7 @@ def _corners(ground: Terrain, rows: slice, columns: slice) -> tuple[Array, Array
 
 
 def front_at(ground: Terrain, time: float) -> tuple[Array, Array]:
-    """Find positions (n, 3) and velocities (n, 2) of the cells at the front at a model time, or nearest to it."""
+    """Find positions (n, 3) and velocities (n, 2) of the cells at the front, at the nearest model time."""
     near = box(ground.arrival < NEVER, more=2)
     if near is None:
         return np.empty((0, 3)), np.empty((0, 2))

@@ -75,7 +75,7 @@ def test_killed_producers_lose_nothing_and_make_nothing_twice(plan, undisturbed,
     }
     assert {path: fake_samples.content(out)[path] for path in undisturbed} == undisturbed
     made = collections.Counter(fake_samples.log(out))
-    assert COUNT - 2 <= len(made)  # a kill can meet a sample between its files and the log
+    assert len(made) >= COUNT - 2  # a kill can meet a sample between its files and the log
     assert sum(made.values()) <= COUNT
 
 
