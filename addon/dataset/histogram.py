@@ -54,8 +54,9 @@ def numeric(groups: Values) -> Bars:
         edges = (np.geomspace if is_log else np.linspace)(low, high, _BINS + 1)
         edges[[0, -1]] = low, high
     counts = {name: np.histogram(found, edges)[0].tolist() for name, found in values.items()}
-    names = [f"{_number(a)} to {_number(b)}" for a, b in itertools.pairwise(edges)]
-    ticks = [(at / _BINS, _number(edges[at])) for at in (0, _BINS // 2, _BINS)]
+    words = _numbers(edges)
+    names = [f"{a} to {b}" for a, b in itertools.pairwise(words)]
+    ticks = [(at / _BINS, words[at]) for at in (0, _BINS // 2, _BINS)]
     return Bars(names, ticks, counts)
 
 
@@ -122,8 +123,13 @@ def _is_log(values: NDArray[np.float64]) -> bool:
     return bool((np.median(values) - low) / (high - low) < _SKEWED)
 
 
-def _number(value: float) -> str:
-    return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
+def _numbers(values: NDArray[np.float64]) -> list[str]:
+    """Format numbers with as many digits as tell neighbours apart, at least three."""
+    for digits in range(3, 12):
+        words = [f"{value:,.0f}" if abs(value) >= 10.0**digits else f"{value:.{digits}g}" for value in values]
+        if len(set(words)) == len(words):
+            break
+    return words
 
 
 def _y(value: float, peak: int) -> float:

@@ -351,8 +351,8 @@ def test_outcomes_are_made_of_the_forecast_pictures_of_all_runs(scene, tmp_path,
         finisher("outcomes")({"png": tmp_path / "o.png"}, needed, shot, "drone", frame)
         assert sensor.read_image(tmp_path / "o.png")[40, 20, 0] == pytest.approx(level, abs=0.01)
     assert [corner[:2] for corner in corners] == [
-        ["outcome 1 of 2", "member 01 of 4"],
-        ["outcome 2 of 2", "member 01 of 4"],
+        ["outcome 1 of 2 shown", "member 01 of 4"],
+        ["outcome 2 of 2 shown", "member 01 of 4"],
     ]
 
 
@@ -379,6 +379,7 @@ def test_a_split_names_each_member_with_its_area_and_has_one_legend(scene, tmp_p
     assert keys[3][0] == ("", "burned by 21:47 in")
     assert not any("front" in words for _, words in keys[3])
     assert ("", "3 of 4 members shown, colours count all") in keys[3]
+    assert ("", "typical and extreme ones, not equally likely") in keys[3]
     assert said[-2:] == ["issued 16 Sep 2014 21:45 PDT", "valid 16 Sep 2014 21:47 PDT"]
 
 

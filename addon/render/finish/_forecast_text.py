@@ -110,6 +110,7 @@ def legend(shot: Shot, counts: Counts, parts: int = 1) -> list[Key]:
             keys.append(("", "members count equally, weights not used"))
     if parts > 1:
         keys.append(("", f"{parts} of {total} {kind}s shown{', colours count all' * shares}"))
+        keys.append(("", "typical and extreme ones, not equally likely"))
     else:
         keys.append((_LINED + SHOWN, f"front of {kind} {found.members[counts.shown].name}, burning"))
         keys += _lines(counts, ", colours count all" if shares else "")

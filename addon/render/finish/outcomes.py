@@ -30,7 +30,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, _camera: str, 
     picture = sensor.read_image(needed[view_of("forecast", label) if label else "forecast"]["png"])[..., :3]
     found = forecast.of(shot.settings)
     shown = forecast.member_of(shot.settings, run, first=not label)
-    counter = [f"outcome {which + 1} of {len(runs)}", *_forecast_text.member(found, shown)]
+    counter = [f"outcome {which + 1} of {len(runs)} shown", *_forecast_text.member(found, shown)]
     area = float(info.burned(run, [times.seconds(run, shot.utc(frame))])[0])
     counter.append(_forecast_text.burned(area))
     barred = with_bar(picture, which, len(runs))
