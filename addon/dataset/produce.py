@@ -119,8 +119,8 @@ def run(
     out = production.out
     with writing(out):
         out.mkdir(parents=True, exist_ok=True)
-    about.write(out, _about(production.plan))
     record.write(out, record.describe(production.plan, out / WORK))
+    about.write(out, _about(production.plan))
     with _open_leases(out) as held:
         _produce(production, held, make, progress, tell)
 

@@ -80,6 +80,12 @@ def run(
         wait(pause)
 
 
+def _log_folder(source: Path) -> Path:
+    """Return the folder of the model's log: the source, or the folder of a file or a zarr store."""
+    is_store = any((source / name).exists() for name in ("zarr.json", ".zgroup"))
+    return source if source.is_dir() and not is_store else source.parent
+
+
 class _Watch:
     """State of a watch between polls."""
 
@@ -113,7 +119,7 @@ class _Watch:
         if seen != self.seen:
             self.changed = now
         self.seen = seen
-        log = model_log.read(request.source)
+        log = model_log.read(_log_folder(request.source))
         accepted = watched.times(request.out)
         known = watched.last_generation(accepted) if accepted else []
         idle = bool(request.idle) and now - self.changed >= request.idle
@@ -175,7 +181,7 @@ class _Watch:
             time.time(),
             request.every,
             ended=ended,
-            failed=bool(log.failure) and not log.succeeded,
+            failed=bool(log.failure) and not log.succeeded and not self.outcome.more,
             restarted=self.restarted,
         )
         if state == "ended" and not known:

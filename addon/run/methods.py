@@ -11,6 +11,7 @@ import firetwin_core
 import numpy as np
 from firetwin_core.run import Run
 
+from ..progress import count
 from . import areas, citations, info, times
 from .burned_fraction import FIELD
 from .ensemble.manifest import Manifest
@@ -56,7 +57,8 @@ def _sentences(run: Run, inputs: Inputs) -> Iterator[str]:
     yield _model(run)
     yield _grid(run)
     if assumed := info.source(Path(run.path)).get("assumptions"):
-        yield f"Firetwin converted the files of the model with {len(assumed)} assumptions (run.toml)."
+        number = count(len(assumed), "assumption")
+        yield f"Firetwin converted the files of the model with {number} (run.toml)."
     yield f"Burned areas are computed from {_AREAS[info.burned_from(run)]}."
     yield f"{_fields(inputs.elevation)} from the run."
     if inputs.observations:
@@ -101,7 +103,7 @@ def _fields(elevation: str) -> str:
 def _cells(latitude: np.ndarray, longitude: np.ndarray) -> str:
     dx, dy = areas.cell_size(latitude, longitude)
     size = f"{dx:.4g} m" if abs(dx - dy) < 0.005 * dx else f"{dx:.4g} x {dy:.4g} m"
-    return f"{len(latitude)} x {len(longitude)} cells of {size}"
+    return f"{len(longitude)} x {len(latitude)} cells of {size}"
 
 
 def _forecast(told: Manifest) -> str:

@@ -9,7 +9,7 @@ import labelled
 import numpy as np
 import pytest
 from firetwin.dataset import files, formats, rle
-from firetwin.dataset.formats import common, voc, yolo
+from firetwin.dataset.formats import coco, colmap, common, hf, nerfstudio, parquet, tum, voc, webdataset, yolo
 from firetwin.dataset.truth import CATEGORIES, Truth, stem
 from firetwin.errors import InputError, UsageError
 from firetwin.shot.cameras.rotation import matrices
@@ -25,6 +25,12 @@ def made(tmp_path_factory):
     samples = labelled.data_set(folder)
     formats.write(folder, samples, NAMES)
     return folder, samples
+
+
+def test_each_format_is_a_module_that_writes():
+    modules = (coco, colmap, hf, nerfstudio, parquet, tum, voc, webdataset, yolo)
+    assert {module.__name__.rpartition(".")[2] for module in modules} == set(formats.FORMATS)
+    assert all(callable(module.write) for module in modules)
 
 
 def instances(folder, split):

@@ -94,7 +94,7 @@ READERS = {
     "run folder": (lambda path: readers.open(path.parent), readers.__name__ + ":_check_years"),
     "model's folder": (lambda path: readers.gathered([path.parent]), "pathlib:Path.iterdir"),
     "model": (_convert, pyretechnics.__name__ + ":_grid"),
-    "model's field": (_convert, write.__name__ + ":_put"),
+    "model's field": (_convert, write.__name__ + ":on_run_grid"),
     "NumPy archive": (lambda path: pyretechnics._arrays(path.with_name("a.npz")), "numpy:load"),
     "netCDF file": (_read_netcdf, netcdf.__name__ + ":_decoded"),
     "raster": (lambda path: raster.read(path.with_name("a.asc")), raster.__name__ + ":_read_ascii"),

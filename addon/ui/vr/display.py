@@ -32,7 +32,7 @@ def start(ended: Callable[[], None]) -> None:
     _times.clear()
     _Drawing.ended = ended
     _Drawing.handler = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "XR", "POST_VIEW")
-    bpy.app.timers.register(_watch, first_interval=_TICK)
+    bpy.app.timers.register(_watch, first_interval=_TICK, persistent=True)
 
 
 def stop() -> None:

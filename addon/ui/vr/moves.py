@@ -59,6 +59,8 @@ class FIRETWIN_OT_vr_time(bpy.types.Operator):
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type != "XR_ACTION":
             return {"PASS_THROUGH"}
+        if event.xr.action != self._action():
+            return {"PASS_THROUGH"}
         if event.value == "RELEASE" or not session.is_running():
             return {"FINISHED"}
         now = time.monotonic()
@@ -72,6 +74,10 @@ class FIRETWIN_OT_vr_time(bpy.types.Operator):
         self._exact = float(context.scene.frame_current)
         self._move(context.scene, _SECONDS / max(context.scene.firetwin.frames, 1))
         return {"FINISHED"}
+
+    def _action(self) -> str:
+        """Return the name of the controller's action that calls this operator."""
+        return "later" if self.direction > 0 else "earlier"
 
     def _move(self, scene: bpy.types.Scene, seconds: float) -> None:
         frames = scene.firetwin.frames
