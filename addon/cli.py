@@ -178,18 +178,7 @@ def _parser() -> argparse.ArgumentParser:
         help="output files of the model, or folders of them",
     )
     made.add_argument("--out", metavar="RUN", type=types.path, required=True, help="run folder to write")
-    made.add_argument(
-        "--start", metavar="TIME", default="", help="start time of the run, if the files do not give it"
-    )
-    made.add_argument(
-        "--at", metavar="LAT,LON", default="", help="centre of a grid without geographic coordinates"
-    )
-    made.add_argument(
-        "--projection",
-        metavar="CRS",
-        default="",
-        help="coordinate reference system of grids in metres, such as EPSG:5070",
-    )
+    _add_origin(made)
     made.add_argument(
         "--interval",
         metavar="SECONDS",
@@ -249,18 +238,7 @@ def _parser() -> argparse.ArgumentParser:
         default=0,
         help="end if the files have not changed for this time, s (never)",
     )
-    watch.add_argument(
-        "--start", metavar="TIME", default="", help="start time of the run, if the files do not give it"
-    )
-    watch.add_argument(
-        "--at", metavar="LAT,LON", default="", help="centre of a grid without geographic coordinates"
-    )
-    watch.add_argument(
-        "--projection",
-        metavar="CRS",
-        default="",
-        help="coordinate reference system of grids in metres, such as EPSG:5070",
-    )
+    _add_origin(watch)
     watch.add_argument("--name", default="", help="name of the run (name of the folder and model)")
     watch.add_argument("--zone", default="", help=zone)
 
@@ -541,6 +519,22 @@ def _parser() -> argparse.ArgumentParser:
     form.add_argument("--json", action="store_true", help="write JSON")
     form.add_argument("--markdown", action="store_true", help="write Markdown tables")
     return parser
+
+
+def _add_origin(parser: argparse.ArgumentParser) -> None:
+    """Add options for the start time and the place of a model's output."""
+    parser.add_argument(
+        "--start", metavar="TIME", default="", help="start time of the run, if the files do not give it"
+    )
+    parser.add_argument(
+        "--at", metavar="LAT,LON", default="", help="centre of a grid without geographic coordinates"
+    )
+    parser.add_argument(
+        "--projection",
+        metavar="CRS",
+        default="",
+        help="coordinate reference system of grids in metres, such as EPSG:5070",
+    )
 
 
 def _scene(

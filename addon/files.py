@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shutil
 import uuid
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -62,6 +63,14 @@ def write(path: Path, put: Callable[[Path], object], durable: bool = True) -> No
     finally:
         with contextlib.suppress(OSError):
             part.unlink(missing_ok=True)
+
+
+def link_or_copy(path: Path, other: Path) -> None:
+    """Give a file a second name; copy it if the file system has no hard links."""
+    try:
+        os.link(path, other)
+    except OSError:
+        shutil.copyfile(path, other)
 
 
 def write_cached(path: Path, data: bytes) -> None:

@@ -47,7 +47,7 @@ def text(folder: Path, about: About, samples: Sequence[Truth]) -> str:
         _categories(),
         _listed("Files", _file_lines(folder)),
         _CONVENTIONS,
-        _draws(about, samples),
+        _draws(samples),
         _NOT_REAL,
         _licences(about, samples),
         _CHECKS,
@@ -147,7 +147,7 @@ splits and copies. Each value of a draw has a separate seed, so one sample can b
 `report.html` shows the distribution of each draw by split and kind."""
 
 
-def _draws(about: About, samples: Sequence[Truth]) -> str:
+def _draws(samples: Sequence[Truth]) -> str:
     """Count the kinds of samples, and the rejected draws, which change the distributions."""
     kinds = Counter(table.kind(truth) for truth in samples)
     lines = [f"{name}: {number:,}" for name, number in sorted(kinds.items(), key=lambda pair: -pair[1])]

@@ -59,7 +59,7 @@ class Draw:
     kind
         "fire", or one of `plan.NEGATIVES`. All negatives except "burned_out" precede the ignition.
     night
-        The sun is below the horizon.
+        The sun is drawn from `sun_elevation_night`.
     split
         "train", "val" or "test".
     moment

@@ -176,11 +176,6 @@ class Drawer:
         return BEFORE, scene.ignition - value("time_before_ignition"), moments[moment]
 
 
-def draw(plan: Plan, index: int) -> Draw:
-    """Draw one sample of a plan; `Drawer` is faster for several."""
-    return Drawer(plan).draw(index)
-
-
 def count_rejects(draws: Mapping[int, Draw]) -> dict[str, int]:
     """Count the rejected tries by reason."""
     found: dict[str, int] = {}

@@ -133,7 +133,7 @@ def write(
         ),
         "classes": lambda part: _save_classes(part, rendered.classes),
         "masks": lambda part: _save(part, np.dstack([masks.smoke, masks.fire, masks.amodal])),
-        "instances": lambda part: _save(part, _bytes(rendered.instance)),
+        "instances": lambda part: _save(part, three_bytes(rendered.instance)),
         "thermal": lambda part: _save_floats(
             part, sensed.kelvin - _KELVIN, "brightness temperature, degrees C"
         ),
@@ -201,7 +201,7 @@ def _sixteen_bits(alpha: NDArray) -> NDArray[np.uint16]:
     return np.rint(np.clip(alpha, 0.0, 1.0) * _FULL).astype(np.uint16)
 
 
-def _bytes(numbers: NDArray) -> NDArray[np.uint8]:
+def three_bytes(numbers: NDArray) -> NDArray[np.uint8]:
     """Split numbers below 2^24 into three bytes (h, w, 3), the lowest first."""
     return np.stack([numbers >> shift & 255 for shift in (0, 8, 16)], axis=-1).astype(np.uint8)
 

@@ -23,6 +23,7 @@ import numpy as np
 from firetwin_core import sensor
 from numpy.typing import NDArray
 
+from ..imaging.srgb import to_display, to_linear
 from ..shot.sections.thermal import BANDS
 from .files import eight_bits
 from .rendered import Rendered
@@ -49,7 +50,7 @@ class SensorSettings:
     read_noise
         Standard deviation of the read noise, share of white.
     jpeg_quality
-        1 to 95 of libjpeg.
+        Quality of libjpeg, 1 to 100.
     netd
         Noise-equivalent temperature difference at 300 K, K.
     saturation
@@ -186,16 +187,6 @@ def _measure_heat(kelvin: Array, settings: SensorSettings, key: int) -> Array:
         key=key & 0xFFFFFFFF,
     )
     return np.asarray(table.brightness_temperature(measured), np.float32)
-
-
-def to_linear(display: NDArray) -> NDArray:
-    """Convert sRGB display values of 0..1 to linear light."""
-    return np.where(display <= 0.04045, display / 12.92, ((display + 0.055) / 1.055) ** 2.4)
-
-
-def to_display(light: NDArray) -> NDArray:
-    """Convert linear light of 0..1 to sRGB display values."""
-    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1.0 / 2.4) - 0.055)
 
 
 def blurred(picture: NDArray, deviation: float) -> NDArray:

@@ -102,8 +102,8 @@ def of_shot(shot: Shot, time: float) -> Place:
 def _front(ground: Terrain, time: float) -> tuple[Line, ...]:
     """Trace the front of the ground as drawn, at a model time, s.
 
-    It differs from the run's front in the unburned islands that the terrain of a synthetic run invents. There
-    is no front after the last ground has burned out.
+    In a synthetic run the terrain invents unburned islands, so this front differs from the run's. After the
+    last ground has burned out the front is empty.
     """
     last = np.max(ground.burn_time, initial=-np.inf, where=ground.burned >= 0.5)
     if time > last + BURN_TIME:

@@ -79,7 +79,8 @@ class Annotation:
     boxes_by_alpha
         Smoke: boxes of the pixels whose alpha (1 - transmittance) is at least the key, such as "0.2".
     contrast
-        Smoke: largest mean difference from the picture without smoke, 0..1 of full scale.
+        Smoke: mean over the plume of the largest difference of a channel from the picture without smoke,
+        0..1 of full scale.
     distance_m
         Distance from the camera along the line of sight, m: the median over the pixels.
     nearest_m

@@ -10,6 +10,7 @@ import numpy as np
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
+from ..imaging import srgb
 from ..scene.forest import biomes
 from ..shot.shot import Shot
 from ..shot.surface import orthophoto
@@ -49,14 +50,7 @@ def paint(shot: Shot, times: NDArray[np.float64], largest: int = LARGEST) -> lis
 
 def encode(linear: NDArray[np.float64]) -> NDArray[np.uint8]:
     """Encode linear values in 0..1 as sRGB bytes (IEC 61966-2-1)."""
-    value = np.clip(linear, 0.0, 1.0)
-    curve = np.where(value <= 0.0031308, 12.92 * value, 1.055 * value ** (1.0 / 2.4) - 0.055)
-    return np.round(255.0 * curve).astype(np.uint8)
-
-
-def _decode(srgb: NDArray) -> NDArray[np.float64]:
-    value = srgb.astype(np.float64) / 255.0
-    return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
+    return np.round(255.0 * srgb.to_display(np.clip(linear, 0.0, 1.0))).astype(np.uint8)
 
 
 def _varied(row: NDArray[np.float64], column: NDArray[np.float64], seed: int) -> NDArray[np.float64]:
@@ -105,7 +99,7 @@ def _with_photo(
         pixel = picture.pixels[
             (part[inside, 1] * height).astype(np.int64), (part[inside, 0] * width).astype(np.int64)
         ]
-        colour = _PHOTO * _decode(pixel[:, :3])
+        colour = _PHOTO * srgb.to_linear(pixel[:, :3].astype(np.float64) / 255.0)
         colour = colour / (1.0 + _SHOULDER * colour.mean(axis=1, keepdims=True))
         share = pixel[:, 3:] / 255.0
         shade[inside] += share * (colour - shade[inside])

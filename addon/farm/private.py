@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import functools
 import json
-import os
-import shutil
 from collections import defaultdict
 from collections.abc import Iterable
 from pathlib import Path
@@ -82,9 +79,6 @@ def verified_entries(found: Iterable[Entry], out: Path, made_with: Fingerprints)
 
 
 def _link_or_copy(path: Path, other: Path) -> None:
-    """Link a file to another path, or copy it if the file system has no hard links."""
+    """Link or copy a file to another path, whose folder may not exist yet."""
     other.parent.mkdir(parents=True, exist_ok=True)
-    with contextlib.suppress(OSError):
-        os.link(path, other)
-        return
-    shutil.copyfile(path, other)
+    files.link_or_copy(path, other)

@@ -24,7 +24,7 @@ one means a line."""
 class Mark(NamedTuple):
     """Text next to a place of a picture: pixels right and down, and the colour of a dot there.
 
-    The text is at the left of the place if there is no room at its right.
+    The text is at the right of the place, or at its left near the right edge of the picture.
     """
 
     x: float

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import functools
-import os
-import shutil
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
@@ -36,14 +34,7 @@ def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
 def link(source: Path, place: Path, listed: Iterable[int]) -> None:
     """Hard-link volumes into another cache folder; copy where the file system has no links."""
     for path in (path for frame in listed for path in sorted(source.glob(f"*_{frame:06d}.vdb"))):
-        files.write(place / path.name, functools.partial(_link_or_copy, path))
-
-
-def _link_or_copy(path: Path, part: Path) -> None:
-    try:
-        os.link(path, part)
-    except OSError:
-        shutil.copyfile(path, part)
+        files.write(place / path.name, functools.partial(files.link_or_copy, path))
 
 
 def _resolution_inputs(shot: Shot) -> list[object]:

@@ -90,8 +90,7 @@ def _panoptic(folder: Path, truth: Truth, masks: files.Masks, pictures: Path) ->
 
     segments = segment_ids(files.read(folder, "classes", truth.index), truth.annotations, masks)
     name = f"{stem(truth.index)}.png"
-    coded = np.stack([segments & 255, segments >> 8 & 255, segments >> 16], axis=-1).astype(np.uint8)
-    Image.fromarray(coded).save(pictures / name, compress_level=3)
+    Image.fromarray(files.three_bytes(segments)).save(pictures / name, compress_level=3)
     return {"image_id": truth.index, "file_name": name, "segments_info": _segments(segments)}
 
 

@@ -26,7 +26,7 @@ def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
         for number, truth in enumerate(members, 1):
             lens = truth.camera
             numbers = (lens.fx, lens.fy, lens.cx, lens.cy)
-            cameras.append(f"{number} PINHOLE {lens.width} {lens.height} {_text(numbers)}")
+            cameras.append(f"{number} PINHOLE {lens.width} {lens.height} {common.numbers(numbers)}")
             images += [f"{number} {_pose(truth)} {number} {PurePosixPath(common.picture(truth)).name}", ""]
         common.write_lines(folder / "cameras.txt", cameras)
         common.write_lines(folder / "images.txt", images)
@@ -35,8 +35,4 @@ def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
 
 def _pose(truth: Truth) -> str:
     pose = axes.world_to_opencv(np.array(truth.camera.camera_to_world))
-    return _text((*axes.quaternion(pose), *pose[:3, 3]))
-
-
-def _text(numbers: Sequence[float]) -> str:
-    return " ".join(f"{float(number):.12g}" for number in numbers)
+    return common.numbers((*axes.quaternion(pose), *pose[:3, 3]))

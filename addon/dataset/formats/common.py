@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import shutil
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from ... import files
 from ..truth import CATEGORIES, Annotation, Box, Truth
 
 THINGS = tuple(each for each in CATEGORIES if each.has_instances)
@@ -73,15 +72,15 @@ def write_lines(path: Path, lines: Iterable[str]) -> None:
     path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8", newline="\n")
 
 
+def numbers(values: Iterable[float]) -> str:
+    """Format numbers in a line with 12 digits."""
+    return " ".join(f"{float(value):.12g}" for value in values)
+
+
 def link(source: Path, path: Path) -> None:
-    """Give a file a second name; copy it where the file system has no hard links."""
+    """Give a file a second name in a folder that may not exist yet."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    try:
-        os.link(source, path)
-    except FileNotFoundError:
-        raise
-    except OSError:
-        shutil.copyfile(source, path)
+    files.link_or_copy(source, path)
 
 
 def shards(folder: Path, samples: Sequence[Truth], kinds: Sequence[str] = ()) -> list[list[Truth]]:

@@ -29,13 +29,11 @@ def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
             lens, number = truth.camera, f"{truth.index}.0"
             pose = axes.opencv_to_world(np.array(lens.camera_to_world))
             w, x, y, z = axes.quaternion(pose)
-            poses.append(f"{number} {_text((*pose[:3, 3], x, y, z, w))}")
+            poses.append(f"{number} {common.numbers((*pose[:3, 3], x, y, z, w))}")
             pictures.append(f"{number} ../../{common.picture(truth)}")
             centre = (lens.cx - axes.OPENCV_CENTRE, lens.cy - axes.OPENCV_CENTRE)
-            lenses.append(f"{number} {lens.width} {lens.height} {_text((lens.fx, lens.fy, *centre))}")
+            lenses.append(
+                f"{number} {lens.width} {lens.height} {common.numbers((lens.fx, lens.fy, *centre))}"
+            )
         for name, lines in (("groundtruth", poses), ("rgb", pictures), ("camera", lenses)):
             common.write_lines(out / FOLDER / run / f"{name}.txt", lines)
-
-
-def _text(numbers: Sequence[float]) -> str:
-    return " ".join(f"{float(number):.12g}" for number in numbers)

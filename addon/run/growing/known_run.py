@@ -16,7 +16,6 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ... import files
-from . import revision
 
 _ARRIVAL = "fuel_arrival_time"
 _FRAMES = "{:06d}"
@@ -49,7 +48,7 @@ def write(run: Run, count: int, until: float, out: Path, identity: str) -> None:
             if each.suffix == ".npy" and _has_times(each, run):
                 _copy_times(each, out / each.name, count, repeated)
             else:
-                revision.link(each, out / each.name)
+                files.link_or_copy(each, out / each.name)
     if run.has(_ARRIVAL):
         known = np.asarray(run.fuel_arrival_time(), np.float64)
         known = np.where(known <= last, known + zero, np.nan)
@@ -98,7 +97,7 @@ def _link_frames(source: Path, target: Path, count: int, repeated: bool) -> None
     named = {each.stem: each for each in source.iterdir() if each.suffix in (".npy", ".txt")}
     for index in range(count + repeated):
         each = named[_FRAMES.format(min(index, count - 1))]
-        revision.link(each, target / f"{_FRAMES.format(index)}{each.suffix}")
+        files.link_or_copy(each, target / f"{_FRAMES.format(index)}{each.suffix}")
 
 
 def _has_times(path: Path, run: Run) -> bool:

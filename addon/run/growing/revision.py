@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import os
 import shutil
 import uuid
 from dataclasses import replace
@@ -124,7 +123,7 @@ def _times(part: Path, last: Path | None, count: int, values: list[Fields], sour
         (part / name).mkdir()
         for index in range(count):
             assert last is not None
-            link(last / name / f"{index:06d}.npy", part / name / f"{index:06d}.npy")
+            files.link_or_copy(last / name / f"{index:06d}.npy", part / name / f"{index:06d}.npy")
         for index, fields in enumerate(values, start=count):
             path = part / name / f"{index:06d}.npy"
             files.write(path, lambda to, array=fields[name]: np.save(to, array))  # type: ignore[misc]
@@ -135,7 +134,7 @@ def _constants(part: Path, last: Path | None, model: Model, until: datetime) -> 
     if last is not None:
         for each in last.glob("*.npy"):
             if each.stem != _ARRIVAL:
-                link(each, part / each.name)
+                files.link_or_copy(each, part / each.name)
     for name, get in model.still.items():
         if last is not None and name != _ARRIVAL:
             continue
@@ -152,14 +151,6 @@ def _constants(part: Path, last: Path | None, model: Model, until: datetime) -> 
             for axis in ("latitude", "longitude"):
                 array = getattr(grid.placed, axis)
                 files.write(part / f"{before}{axis}.npy", lambda to, array=array: np.save(to, array))  # type: ignore[misc]
-
-
-def link(old: Path, new: Path) -> None:
-    """Make a hard link, or a copy on a file system without links."""
-    try:
-        os.link(old, new)
-    except OSError:
-        shutil.copy2(old, new)
 
 
 def _check(part: Path, model: Model) -> None:

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
-import os
-import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -78,9 +75,6 @@ def _link(source: Path, path: Path) -> None:
 
     def put(part: Path) -> None:
         part.unlink(missing_ok=True)
-        with contextlib.suppress(OSError):
-            os.link(source, part)
-            return
-        shutil.copyfile(source, part)
+        files.link_or_copy(source, part)
 
     files.write(path, put, durable=False)

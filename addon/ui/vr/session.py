@@ -59,8 +59,8 @@ def is_running() -> bool:
     return bpy.types.XrSessionState.is_running(bpy.context)
 
 
-def stand(context: bpy.types.Context, name: str, angle: float | None = None) -> bool:
-    """Place the viewer at a landmark, with another angle (rad) if it is given; False: no such place."""
+def stand(context: bpy.types.Context, name: str) -> bool:
+    """Place the viewer at a landmark; False: no such place."""
     scene, manager = context.scene, context.window_manager
     found = landmark_list.pose(scene, name)
     if found is None:
@@ -68,7 +68,7 @@ def stand(context: bpy.types.Context, name: str, angle: float | None = None) -> 
     settings = manager.xr_session_settings
     settings.base_pose_type = "CUSTOM"
     settings.base_pose_location = _table_place(scene, found.place)
-    settings.base_pose_angle = found.angle if angle is None else angle
+    settings.base_pose_angle = found.angle
     scene.firetwin.vr_landmark = name
     if manager.xr_session_state is not None and is_running():
         manager.xr_session_state.reset_to_base_pose(context)
