@@ -106,7 +106,8 @@ make_venv() {
     "$python" -m venv .venv
     rm -rf build/setup # may belong to another Python
   fi
-  "${pip[@]}" "scikit-build-core==1.1.2" "pybind11==3.1.0"
+  # Builders of packages that have no wheel for this system: Firetwin, and reuse.
+  "${pip[@]}" "scikit-build-core==1.1.2" "pybind11==3.1.0" "poetry-core==2.5.0"
 }
 
 # With uv, which takes a fifth of pip's processor time; with pip if uv cannot be installed or cannot reach the packages.
