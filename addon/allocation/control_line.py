@@ -53,8 +53,12 @@ def trace(grid: ArrivalGrid, reach: Reach, time: float, options: LineOptions = U
         slice(int(found[0]), int(found[-1]) + 1)
         for found in (np.flatnonzero(burned.any(axis)) for axis in (1, 0))
     )
-    near = distance(np.pad(burned[box], pad), (width, height), margin) <= margin
-    field = radius - distance(~near, (width, height), radius + width + height)
+    mask = np.pad(burned[box], pad)
+    if radius > 0.0:
+        near = distance(mask, (width, height), margin) <= margin
+        field = radius - distance(~near, (width, height), radius + width + height)
+    else:
+        field = distance(mask, (width, height), margin + width + height) - margin
     y, x, after = contour(field)
     latitude, longitude = (
         np.interp(at, np.arange(part.stop - part.start + 2 * pad), _extend(axis[part], pad))

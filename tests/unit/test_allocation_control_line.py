@@ -43,9 +43,9 @@ def test_distances_are_those_of_all_pairs():
     assert (found[~near] > 90.0).all()
 
 
-@pytest.mark.parametrize("indirect", [0.0, 100.0, 300.0])
-def test_the_line_of_a_circle_is_a_circle_outside(indirect):
-    found, _ = length(disc(800.0), LineOptions(300.0, indirect))
+@pytest.mark.parametrize(("radius", "indirect"), [(300.0, 0.0), (300.0, 100.0), (300.0, 300.0), (0.0, 300.0)])
+def test_the_line_of_a_circle_is_a_circle_outside(radius, indirect):
+    found, _ = length(disc(800.0), LineOptions(radius, indirect))
     assert found == pytest.approx(2.0 * np.pi * (800.0 + indirect), rel=0.06)
 
 
