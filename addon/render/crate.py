@@ -6,6 +6,7 @@ The format is RO-Crate 1.2 (https://w3id.org/ro/crate/1.2). Hashes, model times 
 
 from __future__ import annotations
 
+import itertools
 import json
 import mimetypes
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -82,7 +83,8 @@ def write(
         "conformsTo": {"@id": _PROFILE},
     }
     graph = [about, root, *files_, action, *software, *_people(software), *inputs, *cited]
-    graph += _licence(licence)
+    if licence not in {entity["@id"] for entity in graph}:
+        graph += _licence(licence)
     text = json.dumps({"@context": f"{_PROFILE}/context", "@graph": graph}, indent=1) + "\n"
     files.write_text(out / NAME, text)
     return out / NAME
@@ -109,14 +111,16 @@ def _inputs(
     """
     found = dict[str, Hashes]()
     for made_with in settings.values():
-        for hashes in (made_with.get("run"), *made_with.get("beside", {}).values()):
+        shown = [made_with.get("run"), *made_with.get("beside", {}).values()]
+        members = made_with.get("members", {})  # of the ensemble of the first, which is the film's run
+        for hashes, more in itertools.zip_longest(shown, [members], fillvalue=Hashes()):
             if not hashes:
                 continue
             label = next((label for label, fields in runs.items() if _agree(hashes, fields)), None)
             if label is None:
                 reason = "lists a picture of another run; name the scene file of this film"
                 raise input_error(out / manifest.NAME, reason)
-            found[label] = found.get(label, {}) | hashes | made_with.get("members", {})
+            found[label] = found.get(label, {}) | hashes | more
     return found
 
 

@@ -8,6 +8,7 @@ from firetwin import cli
 from firetwin.render import crate, store
 from firetwin.render.store import Store
 from firetwin.run import content, readers
+from small_run import small_fields, write_field
 
 LICENCE = "https://creativecommons.org/licenses/by/4.0/"
 NAMES = ("drone/rgb/drone_rgb_000001.png", "drone/depth/drone_depth_000001.exr", "drone/drone_rgb.mp4")
@@ -21,7 +22,7 @@ def scene(make_run, tmp_path):
     return path
 
 
-def finish(out, hashes, names=NAMES):
+def finish(out, hashes, names=NAMES, **more):
     """Write made-up files of a film, and its store."""
     entries = {}
     for name in names:
@@ -33,7 +34,7 @@ def finish(out, hashes, names=NAMES):
     entries[names[0]] |= {"frame": 1, "time": "2014-09-17T21:00:00+00:00", "credits": ["Map makers, CC BY"]}
     with Store(out, create=True) as made:
         versions = {"firetwin": "0.2.0", "blender": "4.5.15"}
-        made.add({"versions": versions, "run": hashes}, entries)
+        made.add({"versions": versions, "run": hashes, **more}, entries)
         made.export()
     return out
 
@@ -88,6 +89,26 @@ def test_the_rendering_names_programs_inputs_and_sources(scene, film, tmp_path):
     cited = [found[each] for each in ids(found["./"]["mentions"])[1:]]
     assert {"algorithms", "fire model", "facts"} == {each["description"] for each in cited}
     assert found[found["./"]["license"]["@id"]]["description"].startswith("Not chosen")
+
+
+def test_members_belong_to_the_run_of_the_film(make_run, tmp_path):
+    make_run().rename(tmp_path / "other")
+    write_field(tmp_path / "other", "elevation", small_fields()["elevation"] + 1.0, "npy")
+    path = tmp_path / "film.toml"
+    path.write_text(f'run = "{make_run()}"\n[[runs]]\npath = "other"\nname = "other"\n')
+    inputs = [content.inputs(readers.open(tmp_path / name), tmp_path / "cache") for name in ("run", "other")]
+    out = finish(tmp_path / "film", inputs[0], beside={"other": inputs[1]}, members={"member 1": "2" * 64})
+    assert cli.main(["cite", str(path), "--crate", str(out)]) == 0
+    found = entities(out)
+    runs = [found[run] for run in ids(found["#render"]["object"])]
+    names = [[found[part]["name"] for part in ids(run["hasPart"])] for run in runs]
+    assert ["member 1" in each for each in names] == [True, False]
+
+
+def test_the_licence_of_the_programs_can_be_that_of_the_film(scene, film):
+    licence = "https://spdx.org/licenses/GPL-3.0-or-later"
+    assert cli.main(["cite", str(scene), "--crate", str(film), "--license", licence]) == 0
+    assert entities(film)["./"]["license"]["@id"] == licence
 
 
 def test_another_library_reads_it(scene, film):
