@@ -68,6 +68,13 @@ def test_ignitions_and_run_times_come_from_the_table(folder, tmp_path):
         run(folder, tmp_path / "other")
 
 
+def test_a_number_in_two_folders_is_refused(folder, tmp_path):
+    (tmp_path / "more").mkdir()
+    other = burned_list(tmp_path / "more", 2, [(1, 1, 60.0)])
+    with pytest.raises(InputError, match=rf"{other.name}: is the same member as .*outputs"):
+        convert.members_in_process([str(folder), str(other.parent)], str(tmp_path / "out"), OPTIONS)
+
+
 def test_damaged_lists_are_left_out(folder, tmp_path):
     path = burned_list(folder, 3, [(1, 1, 60.0)])
     path.write_bytes(path.read_bytes()[:12])

@@ -55,10 +55,20 @@ def test_ranks_are_in_hours_and_are_not_a_forecast(tmp_path):
     assert [member.name for member in made.members] == ["size percentile 10", "size percentile 90"]
     np.testing.assert_array_equal(arrival, [[[NEVER, NEVER], [NEVER, 1800]], [[NEVER, 7200], [3600, 1800]]])
     assert f"{made.issued:%F %T}" == "2023-11-05 19:17:00"
+    grid(folder / "time-of-arrival_05.asc", "0 two\n0 0.5\n")
+    made, _ = run(folder, tmp_path / "damaged", "")
+    assert [each.name for each in made.left_out] == ["size percentile 05"]
+    assert len(made.members) == 2
     other = tmp_path / "20231105_191700" / "elmfire" / "landfire"
     for name in ("10", "90"):
         grid(other / name / "time-of-arrival.asc", "0 0\n0 0.5\n")
     assert len(run(other, tmp_path / "pyrecast")[0].members) == 2
+
+
+def test_a_name_in_two_folders_is_refused(tmp_path):
+    folders = [grid(tmp_path / name / "dry_ArrivalTime.asc", "1 2\n3 4\n").parent for name in "ab"]
+    with pytest.raises(InputError, match=r"b.dry_ArrivalTime.asc: is the same member as .*a.dry_Arr"):
+        convert.members_in_process([*map(str, folders)], str(tmp_path / "out"), OPTIONS)
 
 
 @pytest.mark.parametrize("name", ["min_arrival_time_60", "time-of-arrival_50"])

@@ -12,13 +12,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ....errors import InputError, input_error
+from ....errors import InputError
 from ...models import from_arrival_time, probability_maps, raster
 from ...models.model import Options
 from .. import write
 from ..manifest import Manifest, Member
 from ..member_set import MemberSet
-from .files_in import files_in
+from . import rasters
+from .files_in import add_member, files_in
 
 NAME = "FARSITE or FlamMap"
 
@@ -34,18 +35,8 @@ def sniff(paths: list[Path]) -> bool:
 def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     """Read one member for each raster."""
     maps = _maps(paths)
-    opened = {name: _opened(path) for name, path in maps.items()}
-    good = [each for each in opened.values() if isinstance(each, raster.Raster)]
-    if not good:
-        raise input_error(
-            paths[0], f"none of its {len(maps)} rasters can be read; {next(iter(opened.values()))}"
-        )
+    opened, good = rasters.open_members(maps, paths[0])
     first = good[0]
-    for each in good[1:]:
-        if not each.has_cells_of(first):
-            raise input_error(
-                each.path, f"has other cells than {first.path.name}; members need cells of one grid"
-            )
     grid, note = first.grid(options.projection, options.at)
     last = max(float(np.nanmax(each.values, initial=0.0)) for each in good) * _MINUTE
     head = Manifest(
@@ -61,7 +52,7 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     return MemberSet(head, grid, _members(opened, head.horizon), notes)
 
 
-def _members(opened: dict[str, raster.Raster | InputError], horizon: float) -> Iterator[write.Read]:
+def _members(opened: rasters.Opened, horizon: float) -> Iterator[write.Read]:
     for name, read in opened.items():
         if isinstance(read, InputError):
             yield Member(name), read
@@ -71,18 +62,10 @@ def _members(opened: dict[str, raster.Raster | InputError], horizon: float) -> I
         yield Member(name), seconds if np.isfinite(seconds).any() else "nothing burns"
 
 
-def _opened(path: Path) -> raster.Raster | InputError:
-    """Read a raster; an error is the reason why the member is left out."""
-    try:
-        return raster.read(path)
-    except InputError as error:
-        return error
-
-
 def _maps(paths: list[Path]) -> dict[str, Path]:
     """Return the raster of each simulation, by its name."""
-    found = {}
+    found: dict[str, Path] = {}
     for path in files_in(paths):
         if _NAME.search(path.stem) and not probability_maps.refusal(path) and raster.is_raster(path):
-            found[_NAME.sub("", path.stem) or path.stem] = path
+            add_member(found, _NAME.sub("", path.stem) or path.stem, path)
     return found

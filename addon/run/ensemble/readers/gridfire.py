@@ -25,7 +25,7 @@ from ...models.model import LONGEST, Options
 from .. import write
 from ..manifest import Manifest, Member
 from ..member_set import MemberSet
-from .files_in import files_in
+from .files_in import add_member, files_in
 
 NAME = "GridFire"
 
@@ -132,7 +132,11 @@ def _last(path: Path) -> float:
 
 def _lists(files: list[Path]) -> dict[int, Path]:
     """Return the list of each simulation, by its number."""
-    return {int(match[1]): path for path in files if (match := _LIST.match(path.name))}
+    found: dict[int, Path] = {}
+    for path in files:
+        if match := _LIST.match(path.name):
+            add_member(found, int(match[1]), path)
+    return found
 
 
 def _statistics(path: Path) -> dict[int, _Simulation]:

@@ -15,12 +15,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ....errors import input_error
+from ....errors import InputError
 from ...models import from_arrival_time, raster
 from ...models.model import Options
 from .. import write
 from ..manifest import Manifest, Member
 from ..member_set import MemberSet
+from . import rasters
 from .files_in import files_in
 
 NAME = "ranks of fire size (elmfire_post, Pyrecast)"
@@ -39,9 +40,9 @@ def sniff(paths: list[Path]) -> bool:
 def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     """Read one member for each percentile."""
     maps = _maps(paths)
-    first = next(iter(maps.values()))
-    like = raster.read(first)
-    grid, note = like.grid(options.projection, options.at)
+    opened, good = rasters.open_members(maps, paths[0])
+    first = good[0].path
+    grid, note = good[0].grid(options.projection, options.at)
     told = options if options.start else replace(options, start=_moment(first))
     notes = [
         "each member stands for a rank of fire size, so that their shares are not a probability",
@@ -50,27 +51,28 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     ]
     if told.start and not options.start:
         notes.append("issue time is the folder's name, in UTC")
+    last = max(float(np.nanmax(each.values, initial=0.0)) for each in good) * _HOUR
     head = Manifest(
         name=options.name or first.parent.name,
         model="ELMFIRE",
         issued=from_arrival_time.begun(told, first),
-        horizon=horizon or max(_HOUR, *(_last(path) for path in maps.values())),
+        horizon=horizon or max(_HOUR, last),
         members=(),
         zone=options.zone,
         source=f"{len(maps)} {NAME}",
         kind="ranked",
     )
-    return MemberSet(head, grid, _members(maps, like, head.horizon), notes)
+    return MemberSet(head, grid, _members(opened, head.horizon), notes)
 
 
-def _members(maps: dict[str, Path], like: raster.Raster, horizon: float) -> Iterator[write.Read]:
-    for percentile, path in maps.items():
-        found = raster.read(path)
-        if not found.has_cells_of(like):
-            raise input_error(path, f"has other cells than {like.path.name}; members need cells of one grid")
-        arrival = np.where(found.values > 0.0, found.values * _HOUR, np.inf).astype(np.float32)
-        arrival[arrival > horizon] = np.inf
+def _members(opened: rasters.Opened, horizon: float) -> Iterator[write.Read]:
+    for percentile, read in opened.items():
         member = Member(f"size percentile {percentile}")
+        if isinstance(read, InputError):
+            yield member, read
+            continue
+        arrival = np.where(read.values > 0.0, read.values * _HOUR, np.inf).astype(np.float32)
+        arrival[arrival > horizon] = np.inf
         yield member, arrival if np.isfinite(arrival).any() else "nothing burns"
 
 
@@ -85,11 +87,6 @@ def _maps(paths: list[Path]) -> dict[str, Path]:
         if (match or path.stem == "time-of-arrival") and _FOLDER.fullmatch(percentile):
             found |= {percentile: path} if raster.is_raster(path) else {}
     return dict(sorted(found.items()))
-
-
-def _last(path: Path) -> float:
-    """Return the last arrival of a percentile, s."""
-    return float(np.nanmax(raster.read(path).values, initial=0.0)) * _HOUR
 
 
 def _moment(path: Path) -> datetime | None:
