@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 from firetwin_core.run import Run
 
+from .. import files
 from ..errors import Error, UsageError
 from ..progress import MessageCallback, Progress, count, duration, no_message, silent
 from ..run import content, readers, times
@@ -73,7 +74,7 @@ def run(
     with tempfile.TemporaryDirectory(prefix="follow-", dir=settings.cache) as folder:
         film = _Film(choice, asked, Path(folder), progress, tell, stop)
         while True:
-            known, text = _look(settings), f"waiting for the first time in {settings.run}"
+            known, text = _look(settings, Path(folder)), f"waiting for the first time in {settings.run}"
             if known is not None:
                 groups, missing = _groups(settings, asked, known)
                 film.render(known, groups)
@@ -108,8 +109,8 @@ def _check(settings: Settings) -> None:
             )
 
 
-def _look(settings: Settings) -> _Known | None:
-    """Open the newest revision; None before the first time."""
+def _look(settings: Settings, place: Path) -> _Known | None:
+    """Open the newest revision, which is kept in the folder `place`; None before the first time."""
     folder = settings.run
     if not watched.is_watched(folder):
         run = readers.open(folder)
@@ -121,7 +122,28 @@ def _look(settings: Settings) -> _Known | None:
             raise Error(f"{folder}: the model ended without a complete time")
         return None
     first = watched.last_generation(accepted)[0]
-    return _Known(readers.open(folder), ended, f"{first.generation} {first.time} {first.sha256}")
+    kept = _keep(folder, place / "revisions")
+    return _Known(readers.open(kept), ended, f"{first.generation} {first.time} {first.sha256}")
+
+
+def _link(path: str, other: str) -> None:
+    files.link_or_copy(Path(path), Path(other))
+
+
+def _keep(folder: Path, place: Path) -> Path:
+    """Link the newest revision into a folder, as `firetwin watch` removes old ones; return its copy."""
+    while True:
+        newest = watched.newest(folder)
+        assert newest is not None
+        kept = place / newest.parent.name / newest.name
+        if kept.is_dir():
+            return kept
+        shutil.rmtree(place, ignore_errors=True)
+        try:
+            return Path(shutil.copytree(newest, kept, copy_function=_link))
+        except OSError:
+            if watched.newest(folder) == newest:
+                raise
 
 
 def _groups(settings: Settings, asked: RenderRequest, known: _Known) -> tuple[dict[int, list[int]], int]:

@@ -74,6 +74,18 @@ def test_a_frame_needs_the_next_time():
     assert known_run.next_time(times, 1201.0, ended=True) == 0
 
 
+def test_a_revision_stays_readable_after_watch_removed_it(tmp_path, monkeypatch):
+    folder = tmp_path / "DIR"
+    revision = follow.watched.revision_folder(folder, 1, 3)
+    whole_run.write(revision, cells=8, times=(0.0, 600.0, 1200.0))
+    monkeypatch.setattr(follow.watched, "newest", lambda _: revision)
+    kept = follow._keep(folder, tmp_path / "revisions")
+    before = readers.open(kept).heat_flux(2).copy()
+    follow.shutil.rmtree(revision)
+    np.testing.assert_array_equal(readers.open(kept).heat_flux(2), before)
+    assert follow._keep(folder, tmp_path / "revisions") == kept
+
+
 def test_the_description_comes_back():
     table = {
         "name": 'a "b"',
