@@ -40,15 +40,21 @@ _thread: threading.Thread | None = None
 _folder: Path | None = None
 
 
-def start(folder: Path) -> None:
-    """Note the times of a run that was read, and look for new ones until the model has ended."""
+def start(folder: Path, read: Growth) -> None:
+    """Note the state of a run that was read, and look for new times until the model has ended.
+
+    Parameters
+    ----------
+    read
+        State from before the run was read (`look`), as times come meanwhile.
+    """
     global _folder
     _folder = folder if watched.is_watched(folder) else None
     if _folder is None:
         return
-    _read[folder] = _latest[folder] = _look(folder)
+    _read[folder] = _latest[folder] = read
     if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
-        bpy.app.timers.register(_tick, first_interval=_PERIOD)
+        bpy.app.timers.register(_tick, first_interval=_PERIOD, persistent=True)
 
 
 def stop() -> None:
@@ -78,7 +84,8 @@ def new_times(folder: Path) -> int:
     return growth.revision[1] - before
 
 
-def _look(folder: Path) -> Growth:
+def look(folder: Path) -> Growth:
+    """Read the state of a watched folder."""
     accepted = watched.times(folder)
     state = str(watched.status(folder).get("state", "unknown"))
     if not accepted:
@@ -105,6 +112,6 @@ def _tick() -> float | None:
 
 def _look_in_thread(folder: Path) -> None:
     try:
-        _latest[folder] = _look(folder)
+        _latest[folder] = look(folder)
     except Exception:  # such as a folder that was removed; the state stays
         return

@@ -99,9 +99,11 @@ def inspect_run(uid: int) -> Steps:
     settings.problem = ""
     folder = Path(bpy.path.abspath(settings.run))
     try:
-        found, images = yield InThread("reading the run", lambda **_: collect_facts(folder))
+        growth, (found, images) = yield InThread(
+            "reading the run", lambda **_: (growing_run.look(folder), collect_facts(folder))
+        )
         owned.scene(uid).firetwin.facts = json.dumps(found)
-        growing_run.start(folder)
+        growing_run.start(folder, growth)
         auto_framing.apply_framing(owned.scene(uid).firetwin, found["fits"])
         maps.show(owned.scene(uid).firetwin.run, images)
         yield from auto_framing.reframe(uid)

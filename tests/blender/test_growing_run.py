@@ -73,6 +73,21 @@ def test_new_times_are_offered_until_they_are_read(panel, model):
     assert "ended" in lines(model.out)[0]
 
 
+def test_a_time_that_comes_while_the_run_is_read_is_offered(panel, model, monkeypatch):
+    collect = run.collect_facts
+
+    def slow(folder):
+        found = collect(folder)
+        model.writer.append()
+        model.watch.poll()
+        return found
+
+    monkeypatch.setattr(run, "collect_facts", slow)
+    panel.run = str(model.out)
+    assert looked() == growing_run._PERIOD
+    assert lines(model.out)[-1] == "Read 1 new time"
+
+
 def test_other_runs_have_no_line(panel, run_folder):
     panel.run = str(run_folder)
     assert panel.facts
