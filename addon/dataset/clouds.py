@@ -1,7 +1,8 @@
-"""Clouds in the sky of a sample: a flat layer of noise in the world's shader, lit as a whole.
+"""Clouds in the sky of a sample: heaps at several distances, and a layer overhead, in the world's shader.
 
-Clouds have white, thin edges and a grey inside. They cast no shadow; `air` dims the sun
-under a cloudy sky. Haze hides them at the horizon.
+Heaps are noise on upright cylinders around the camera. They have flat bases at one height, round tops, a
+side in the light and one in the shade, and thin edges that shine against the light. They cast no shadow;
+`air` dims the sun under a cloudy sky.
 """
 
 from __future__ import annotations
@@ -10,17 +11,32 @@ import bpy
 import numpy as np
 
 from ..blender import nodes
+from ..blender.nodes import Tree, Value
 from ..blender.owned import Stage
 from ..shot.light import sky
 from ..shot.shot import Shot
 from .draw import Draw
 
-_SIZE, _OCTAVES, _ROUGH = 0.9, 7.0, 0.52  # features relative to the height of the clouds (by eye)
-_CLEAREST, _COVERED = 0.66, 0.38  # noise at the edge of clouds for a cover of 0 and 1 (by eye)
-_SOFT = 0.05, 0.17  # noise from edge to opaque, and to the greyest (by eye)
-_LOW = 0.015, 0.10  # sines of elevation between which haze gives way to clouds (by eye)
+# Lengths are relative to the height of the bases; all numbers are by eye unless a line says more.
+_DISTANCES = 2.5, 6.0, 14.0  # of the cylinders
+_BASE = 1500.0  # m
+_SIZE, _OCTAVES, _ROUGH = (0.6, 1.3), 5.0, 0.55  # of heaps; noise
+_CLEAREST, _COVERED = 0.64, 0.36  # noise at the edge of clouds for a cover of 0 and 1
+_HEIGHT, _ROUND = 1.1, 0.24  # of the highest heaps; rise of the edge up to there
+_SOFT, _THICK = 0.06, 0.22  # noise from edge to opaque, and to the greyest
+_FLAT = 0.05  # height over which a base begins
+_ASIDE, _RELIEF = (
+    0.22,
+    4.5,
+)  # distance towards the light at which noise is compared; contrast of light and shade
+_OVERHEAD = 0.28, 0.45  # sines of elevation between which the layer overhead replaces heaps
+_HAZE = (
+    1.5  # optical depth to a heap relative to distance / visibility: less than 3.912, as air is clear above
+)
 _SHARE = 0.30  # radiance relative to a white surface under sun and sky, as of smoke (`exposure_meter`)
-_GREY = 0.55  # radiance of thick clouds relative to their edges (by eye)
+_SHADE = 0.25  # radiance of the shade relative to the light
+_DARKER = 0.35  # share of light that a closed cover takes
+_BRIM = 0.7  # radiance of edges against the light, relative to the light
 
 
 def build(shot: Shot, stage: Stage, drawn: Draw) -> None:
@@ -29,20 +45,69 @@ def build(shot: Shot, stage: Stage, drawn: Draw) -> None:
         return
     tree = nodes.Tree(stage.scene.world.node_tree)
     background = _visible_background(tree.node_tree)
-    clear = nodes.Value(tree, background.inputs["Color"].links[0].from_socket)
-    x, y, up = tree.separate(tree.output("ShaderNodeTexCoord", name="Generated"))
-    far = 1.0 / tree.math("MAXIMUM", up, _LOW[0])
-    start = np.random.default_rng(drawn.random_seed("clouds")).uniform(-500.0, 500.0, 2)
-    place = tree.combine(x * far + float(start[0]), y * far + float(start[1]), 0.0)
-    density = tree.noise(place, _SIZE, _OCTAVES, _ROUGH)
-    edge = _CLEAREST + (_COVERED - _CLEAREST) * drawn.cloud_cover
-    opaque = density.smoothstep(edge, edge + _SOFT[0]) * up.smoothstep(*_LOW)
-    shade = density.smoothstep(edge, edge + _SOFT[1])
-    light = sky.state(shot, drawn.time)
-    white = _SHARE * (light.power * np.array(light.colour) * max(light.direction[2], 0.15) / np.pi * 2.0)
-    white = white + light.sky_mean
-    colour = tree.mix_colour(shade, tuple(white), tuple(_GREY * white))
-    tree.connect(tree.mix_colour(opaque, clear, colour), background.inputs["Color"])
+    colour = nodes.Value(tree, background.inputs["Color"].links[0].from_socket)
+    for density, opacity in _Clouds(tree, shot, drawn).parts():
+        colour = tree.mix_colour(opacity, colour, density)
+    tree.connect(colour, background.inputs["Color"])
+
+
+class _Clouds:
+    """Noise, light and shade of a sample's clouds."""
+
+    def __init__(self, tree: Tree, shot: Shot, drawn: Draw) -> None:
+        self.tree, self.visibility = tree, drawn.visibility
+        self.x, self.y, self.up = tree.separate(tree.output("ShaderNodeTexCoord", name="Generated"))
+        random = np.random.default_rng(drawn.random_seed("clouds"))
+        self.start = random.uniform(-500.0, 500.0, 3)
+        self.size = float(np.exp(random.uniform(*np.log(_SIZE))))
+        self.edge = _CLEAREST + (_COVERED - _CLEAREST) * drawn.cloud_cover
+        light = sky.state(shot, drawn.time)
+        self.toward = light.direction
+        sun = light.power * np.array(light.colour) * max(light.direction[2], 0.15) / np.pi * 2.0
+        self.white = (_SHARE * sun + light.sky_mean) * (1.0 - _DARKER * drawn.cloud_cover)
+
+    def parts(self) -> list[tuple[Value, Value]]:
+        """Return colour and opacity of all layers, the farthest first."""
+        level = self.tree.math("SQRT", self.x * self.x + self.y * self.y) + 1.0e-4
+        heaps = 1.0 - self.up.smoothstep(*_OVERHEAD)
+        found = [self._heaps(far, level, heaps) for far in reversed(_DISTANCES)]
+        return [*found, self._overhead(1.0 - heaps)]
+
+    def _heaps(self, far: float, level: Value, shown: Value) -> tuple[Value, Value]:
+        height = self.up / level * far
+        wave = self.tree.noise(self.tree.combine(self.x, self.y, far), 0.35, 0.0)
+        above = height - (0.75 + 0.5 * wave)
+        share = (above / _HEIGHT).clamp()
+        edge = self.edge + _ROUND * share.power(1.4)
+        place = self.tree.combine(self.x / level * far, self.y / level * far, height)
+        opaque = (
+            above.smoothstep(0.0, _FLAT)
+            * shown
+            * float(np.exp(-_HAZE * far * _BASE / 1000.0 / self.visibility))
+        )
+        return self._lit(place, edge, opaque, share.ramp(0.0, 0.5, 0.25, 1.0))
+
+    def _overhead(self, shown: Value) -> tuple[Value, Value]:
+        far = 1.0 / self.tree.math("MAXIMUM", self.up, 0.1)
+        place = self.tree.combine(self.x * far, self.y * far, 0.0)
+        return self._lit(place, self.edge, shown, 0.5)
+
+    def _lit(
+        self, place: Value, edge: Value | float, shown: Value, bright: Value | float
+    ) -> tuple[Value, Value]:
+        """Return colour and opacity of noise above an edge; `bright` is the light of its place, 0 to 1."""
+        density = self._noise(place, np.zeros(3), _OCTAVES)
+        aside = self._noise(place, _ASIDE * self.size * self.toward, 2.0)
+        opaque = density.smoothstep(edge, edge + _SOFT)
+        thick = density.smoothstep(edge, edge + _THICK)
+        relief = ((density - aside) * _RELIEF + 0.5).clamp()
+        light = (relief * bright * 1.4 + _BRIM * (1.0 - thick) * 0.5).clamp()
+        colour = self.tree.mix_colour(light, tuple(_SHADE * self.white), tuple(self.white))
+        return colour, opaque * shown
+
+    def _noise(self, place: Value, aside: np.ndarray, octaves: float) -> Value:
+        moved = self.tree.vector("ADD", place, tuple((self.start + aside).tolist()))
+        return self.tree.noise(moved, self.size, octaves, _ROUGH)
 
 
 def _visible_background(tree: bpy.types.NodeTree) -> bpy.types.Node:

@@ -129,6 +129,7 @@ class Drawer:
             site = f"{stratum.camera}-{flight + 1}"
             pose = placement.place_mobile(scene, stratum.camera, front, target, lens, value)
         placement.check(scene, pose, is_mobile=stratum.camera != "tower")
+        placement.check_trees(scene, pose, lens.half, target)
         distance = float(np.linalg.norm(target - pose.position))
         if stratum.kind == POSITIVE:
             placement.check_fire(scene, pose, time, lens, distance, allow_hidden=value("ridge") >= 0.5)

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from ..progress import count, duration, size
 
-_VISIT_SECONDS, _SAMPLE_SECONDS = 60.0, 15.0
-"""Processor seconds of a visit (scene and smoke), and of a sample of 640 x 480 pixels (assumed)."""
+_VISIT_SECONDS, _SAMPLE_SECONDS = 20.0, 25.0
+"""Processor seconds of a visit (scene and smoke) and of a sample of 640 x 480 pixels (`docs/datasets.md`)."""
 _PIXELS = 640 * 480
 _SAMPLE_BYTES = 2.8e6
 """Bytes of a sample of 640 x 480 pixels with all maps, by the mean of 8 samples of 240 x 180."""

@@ -105,7 +105,7 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
         below_size=tuple(annotations[len(large) :]),
         front=_polylines(survey.front_in_picture(place, rendered.camera)),
         front_geojson=place.geojson(),
-        horizon=_polylines(survey.skyline(rendered.depth)),
+        horizon=_polylines(survey.skyline(rendered.depth, rendered.rgb, CONTRAST)),
         labelling=thresholds() | {"smoke_without_contrast_pixels": int((smoke & ~seen).sum())},
     )
     return made, _paint(large, rendered.depth.shape)

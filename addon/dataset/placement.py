@@ -16,6 +16,8 @@ _NEAREST = 20.0  # m, least distance of a camera from the front (assumed)
 _PLUME = 300.0  # m, height above the front at which smoke is expected (assumed)
 # Parts of the distance to the target, and largest mean opacity of smoke in the picture up to there (by eye)
 _VEILS = (0.25, 0.3), (1.0, 0.8)
+_CROWD = 40.0, 0.5  # m, and largest share of the picture that crowns closer than this fill (by eye)
+_LINE = 0.33, 400.0  # parts of the line to the target, and m, in which no crown is in the way (by eye)
 _EDGE = 0.98  # place of a fire that the edge of the picture cuts
 
 Array = NDArray[np.float64]
@@ -93,6 +95,23 @@ def check(scene: RunScene, pose: Pose, is_mobile: bool) -> None:
     least = scene.clearance(pose.position) if is_mobile else 1.0
     if scene.height_above_ground(pose.position) < least:
         raise Rejected("too close to the ground")
+
+
+def check_trees(scene: RunScene, pose: Pose, half: tuple[float, float], target: Array) -> None:
+    """Check that crowns near a camera neither fill its picture nor hide its target (3,), m.
+
+    Raises
+    ------
+    Rejected
+        They do.
+    """
+    if not scene.settings.forest.trees:
+        return
+    away = target - pose.position
+    share = min(_LINE[0], _LINE[1] / float(np.linalg.norm(away)))
+    line = pose.position + share * np.linspace(0.1, 1.0, 24)[:, None] * away
+    if scene.in_crowns(line).any() or scene.crowded(*pose, half, _CROWD[0]) > _CROWD[1]:
+        raise Rejected("behind trees")
 
 
 def check_fire(

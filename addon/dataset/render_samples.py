@@ -91,7 +91,7 @@ class _VisitScene:
             self._move(shot, drawn)
         with cost.part("smoke painted"):
             smoke = self._smoke(shot).bricks(1) if self.source else []
-        maps = self.renderer.maps(shot, smoke, folder, cost)
+        maps = self.renderer.maps(shot, smoke, folder, cost, drawn.values["exposure"])
         if not drawn.has_fire:  # lamps count as flames in the layers
             maps |= {name: np.zeros_like(maps[name]) for name in ("fire", "twin_fire")}
         memory.release_freed()

@@ -56,6 +56,8 @@ class Rendered:
         (h, w, 3) radiance of the smoke alone. A smoke-free picture b becomes b * clear + smoke_light.
     exposure
         Stops: `rgb` shows `light` * 2^exposure.
+    risen
+        Stops of it by which the camera's exposure has risen in the dark.
     clear
         (h, w) transmittance of smoke in front of the surface, 0 to 1; the alpha of smoke is 1 - clear.
     smoke_range
@@ -99,6 +101,7 @@ class Rendered:
     camera: Camera
     time: datetime
     model_time: float
+    risen: float = 0.0
     facts: dict[str, Any] = field(default_factory=dict)
 
     @property

@@ -26,8 +26,10 @@ _CANOPY = 0.01  # kg/m2, canopy fuel from which there are trees
 TREE = 35.0
 """Height above ground at which a camera is clear of trees, m (assumed)."""
 _OPEN = 5.0  # m, the same without trees (assumed)
+_CROWNS = 25.0  # m above ground, height of crowns that hide what is behind them (assumed)
 _CELLS = 0.4  # million flow cells per second of model time, as in `places`
-_RAYS = 7, 5  # across and up a picture, in which smoke is measured
+_RAYS = 7, 5  # across and up a picture, in which smoke and crowns are measured
+_STEPS = 12  # along such a ray
 
 Array = NDArray[np.float64]
 
@@ -107,16 +109,14 @@ class RunScene:
         self, time: float, position: Array, rotation: Array, half: tuple[float, float], reach: float
     ) -> float:
         """Compute the mean opacity of smoke in a picture, up to a distance of `reach` m, 0..1."""
-        x, y = (part.ravel() for part in np.meshgrid(*(np.linspace(-0.9, 0.9, count) for count in _RAYS)))
-        rays = np.stack([x * half[0], y * half[1], -np.ones_like(x)], axis=-1)
-        rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
-        depth = self.smoke(time).depth(0, position, position + reach * rays @ rotation.T)
+        rays = self._rays(rotation, half)
+        depth = self.smoke(time).depth(0, position, position + reach * rays)
         return float(np.mean(1.0 - np.exp(-depth)))
 
     @cached_property
     def burned(self) -> Array:
         """Points (n, 3) of the ground that burns in the run, m; 160 at most."""
-        row, column = np.nonzero(self.ground.arrival < NEVER)
+        row, column = np.nonzero((self.ground.arrival < NEVER) & (self.ground.burned >= 0.5))  # no islands
         chosen = some(np.arange(len(row)), _POINTS)
         return self.ground.point(*self.ground.places(row[chosen], column[chosen]))
 
@@ -138,6 +138,25 @@ class RunScene:
     def clearance(self, position: Array) -> float:
         """Least height of a mobile camera above the ground below a point (3,), m."""
         return TREE if self.trees(position[:1], position[1:2])[0] else _OPEN
+
+    def in_crowns(self, points: Array) -> NDArray[np.bool_]:
+        """Return whether points (..., 3) are lower than the crowns of the trees there (...), m."""
+        x, y, z = points.reshape(-1, 3).T
+        low = (z < self.ground.up(x, y) + _CROWNS) & self.trees(x, y)
+        return low.reshape(points.shape[:-1])
+
+    def crowded(self, position: Array, rotation: Array, half: tuple[float, float], reach: float) -> float:
+        """Compute the share of a picture that crowns closer than `reach` m fill, 0..1."""
+        rays = self._rays(rotation, half)
+        steps = reach * (np.arange(_STEPS) + 1.0) / _STEPS
+        return float(np.mean(self.in_crowns(position + steps[:, None, None] * rays).any(axis=0)))
+
+    @staticmethod
+    def _rays(rotation: Array, half: tuple[float, float]) -> Array:
+        """Return directions (n, 3) spread over a picture."""
+        x, y = (part.ravel() for part in np.meshgrid(*(np.linspace(-0.9, 0.9, count) for count in _RAYS)))
+        rays = np.stack([x * half[0], y * half[1], -np.ones_like(x)], axis=-1)
+        return rays / np.linalg.norm(rays, axis=-1, keepdims=True) @ rotation.T
 
     def visible(
         self, points: Array, position: Array, rotation: Array, half: tuple[float, float]

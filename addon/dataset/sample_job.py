@@ -52,7 +52,7 @@ def in_blender(
     progress(0, len(missing), produce.SAMPLES)
     for done, (drawn, rendered) in enumerate(render_samples.render(drawer.plan, visit, missing, tell), 1):
         labelled, masks = labels.label(rendered, survey.of_shot(scene.shot, drawn.time), drawn.index)
-        settings = sensor.SensorSettings.of(drawn.values)
+        settings = sensor.SensorSettings.of(drawn.values, rendered.risen)
         seeds = {name: drawn.random_seed(name) for name in ("noise", "thermal noise")}
         sensed = sensor.apply(rendered, settings, seeds)
         complete = replace(

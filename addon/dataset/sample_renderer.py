@@ -19,6 +19,7 @@ from ..render.picture import Picture
 from ..scene import flame_field
 from ..shot.fire import flame_map
 from ..shot.shot import Shot
+from . import metering
 from .sample_eye import CentreEye, SampleEye
 
 Array = NDArray[np.float32]
@@ -48,8 +49,16 @@ class SampleRenderer(IntegratedRenderer):
     def __init__(self, shot: Shot, stage: Stage) -> None:
         super().__init__(shot, stage, frame_cost.FrameCost())
 
-    def maps(self, shot: Shot, smoke: Sequence[volume.Bricks], folder: Path, cost: Cost) -> dict[str, Any]:
-        """Render the maps of a sample (see `rendered.Rendered`) for the current state of the scene."""
+    def maps(
+        self, shot: Shot, smoke: Sequence[volume.Bricks], folder: Path, cost: Cost, error: float
+    ) -> dict[str, Any]:
+        """Render the maps of a sample (see `rendered.Rendered`) for the current state of the scene.
+
+        Parameters
+        ----------
+        error
+            Error of the exposure, stops.
+        """
         self.shot = shot
         (view,) = shot.paths
         name = view.camera.name
@@ -75,16 +84,20 @@ class SampleRenderer(IntegratedRenderer):
             classes, surface, instance = centre.classes(light.clear)
         with cost.part("thermal"):
             kelvin = eye.kelvin()
+        film = float(self.scene.view_settings.exposure)
+        risen = metering.rise(light.picture, film)
         with cost.part("display"):
-            rgb = self._displayed(light.picture, name, folder)
-            twin = rgb if light.twin is light.picture else self._displayed(light.twin, name, folder)
+            factor = np.float32(2.0 ** (risen + error))
+            rgb = self._displayed(factor * light.picture, name, folder)
+            twin = rgb if light.twin is light.picture else self._displayed(factor * light.twin, name, folder)
         return {
             "rgb": rgb,
             "twin": twin,
             "light": light.picture,
             "twin_light": light.twin,
             "smoke_light": light.smoke,
-            "exposure": float(self.scene.view_settings.exposure),
+            "exposure": film + risen + error,
+            "risen": risen,
             "clear": light.clear,
             "smoke_range": away,
             "classes": classes,

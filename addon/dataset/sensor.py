@@ -3,7 +3,9 @@
 Visible camera: a Gaussian blur of the optics in linear light, shot noise of `full_well` electrons at white,
 read noise, and JPEG compression. Signal and noise are in linear light of the display (sRGB, IEC 61966-2-1),
 each channel is measured in each pixel, and the film's contrast is already in the signal: correlations by
-demosaicing and the response of one camera model are not simulated. The noise model is additive and Gaussian,
+demosaicing and the response of one camera model are not simulated. Of the stops by which the
+exposure rises in the dark, `_AMPLIFIED` are amplification, with fewer electrons at white and more read noise,
+and the others a longer exposure. The noise model is additive and Gaussian,
 variance = signal / full_well + read_noise^2 (the linear model of EMVA Standard 1288, without the
 quantisation noise, which the 8-bit file has itself).
 
@@ -31,6 +33,7 @@ from .rendered import Rendered
 Array = NDArray[np.float32]
 
 _KELVIN = 273.15
+_AMPLIFIED = 0.3  # share of the risen stops that are amplification (assumed)
 _REACH = 4.0  # standard deviations at which a blur ends
 _SHOWN = (1.0, 99.5)  # percentiles that the palette of a thermal picture spans
 _LEAST_SPAN = 5.0  # K, least range of the palette
@@ -57,6 +60,8 @@ class SensorSettings:
         Brightness temperature at which the thermal camera saturates, K; 0: never.
     band
         Thermal band (see `shot.sections.thermal.BANDS`).
+    risen
+        Stops by which the exposure has risen in the dark.
     """
 
     blur: float = 0.0
@@ -66,14 +71,17 @@ class SensorSettings:
     netd: float = 0.0
     saturation: float = 0.0
     band: str = "lwir"
+    risen: float = 0.0
 
     @classmethod
-    def of(cls, values: Mapping[str, float], band: str = "lwir") -> SensorSettings:
-        """Take the drawn values of a sample (see `distributions.VALUES`)."""
+    def of(cls, values: Mapping[str, float], risen: float = 0.0, band: str = "lwir") -> SensorSettings:
+        """Take the drawn values of a sample (see `distributions.VALUES`), for an exposure that has risen."""
+        gain = 2.0 ** (_AMPLIFIED * risen)
         return cls(
             blur=values["blur"],
-            full_well=values["full_well"],
-            read_noise=values["read_noise"],
+            full_well=values["full_well"] / gain,
+            read_noise=values["read_noise"] * gain,
+            risen=risen,
             jpeg_quality=round(values["jpeg_quality"]),
             netd=1.0e-3 * values["netd"],
             saturation=values["saturation"] + _KELVIN,
@@ -87,6 +95,7 @@ class SensorSettings:
             "full_well_electrons": self.full_well if np.isfinite(self.full_well) else None,
             "read_noise_of_white": self.read_noise,
             "jpeg_quality": self.jpeg_quality,
+            "exposure_risen_stops": self.risen,
         }
 
     def thermal(self) -> dict[str, Any]:

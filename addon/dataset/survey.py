@@ -30,6 +30,7 @@ _RISE = 5.0  # m over which the slope of the ground is measured
 _STEP, _LEAST_STEP = 8.0, 2.0  # pixels, and m, between points of a front in the picture
 _MOST_POINTS = 4000  # of a front in the picture
 _SIGHTS = 64  # points of a line of sight that are compared with the ground
+_EDGE_ROWS, _EDGE_COLUMNS = 4, 4  # pixels above and below, and on each side, of an edge of the sky
 _HIDDEN = 2.0  # m, height of the ground above a line of sight that hides its end
 _NEAR = 1.0  # m before the camera
 _DIGITS = 6  # of degrees in GeoJSON: 0.1 m
@@ -175,17 +176,35 @@ def front_in_picture(place: Place, camera: Camera) -> list[Array]:
     return found
 
 
-def skyline(depth: NDArray) -> list[Array]:
+def skyline(depth: NDArray, picture: NDArray, contrast: float) -> list[Array]:
     """Trace the lower edge of the sky in a depth map (h, w): polylines (n, 2), pixels.
 
-    In each column it is the first solid pixel from the top. Columns without sky at the top, or of sky alone,
-    divide the line.
+    In each column it is the first solid pixel from the top. Columns without sky at the top, of sky alone, or
+    whose edge is not in the picture, divide the line.
+
+    Parameters
+    ----------
+    picture
+        (h, w, 3) in display values, 0..1.
+    contrast
+        Least difference between sky and land in the channel with the most.
     """
     solid = np.isfinite(depth)
     first = np.argmax(solid, axis=0)
-    divided = solid.any(axis=0) & ~solid[0]
+    divided = solid.any(axis=0) & ~solid[0] & (_edge_contrast(picture, first) >= contrast)
     u = np.arange(depth.shape[1]) + 0.5
     return [_simplified(np.column_stack([u, first.astype(np.float64)])[run]) for run in _true_runs(divided)]
+
+
+def _edge_contrast(picture: NDArray, first: NDArray) -> Array:
+    """Compute the difference (w,) between means of a picture (h, w, 3) above and below rows `first` (w,)."""
+    rows, columns = np.arange(1, _EDGE_ROWS + 1)[:, None], np.arange(len(first))
+    above = picture[np.maximum(first - rows, 0), columns].mean(axis=0, dtype=np.float64)
+    below = picture[np.minimum(first - 1 + rows, len(picture) - 1), columns].mean(axis=0, dtype=np.float64)
+    wide = np.pad(below - above, ((_EDGE_COLUMNS, _EDGE_COLUMNS), (0, 0)), "edge")
+    near = np.lib.stride_tricks.sliding_window_view(wide, 2 * _EDGE_COLUMNS + 1, axis=0)
+    contrast: Array = np.abs(near.mean(axis=-1)).max(axis=-1)
+    return contrast
 
 
 def _sampled(place: Place, camera: Camera, line: Line) -> list[Array]:

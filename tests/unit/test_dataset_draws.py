@@ -132,13 +132,36 @@ def test_a_fire_behind_a_ridge_is_drawn_again_and_the_tries_are_counted(plan, dr
             raise placement.Rejected("no fire in view")
 
     monkeypatch.setattr(placement, "check_fire", check_fire)
-    monkeypatch.setattr(placement, "check", lambda *a, **b: None)
+    for other in ("check", "check_trees"):
+        monkeypatch.setattr(placement, other, lambda *a, **b: None)
     after = drawer.draw(index)
     assert after.attempt == 2
     assert after.rejects == ("no fire in view",) * 2
     assert draws.count_rejects({1: after}) == {"no fire in view": 2}
     assert (after.kind, after.camera.kind, after.run) == (before.kind, before.camera.kind, before.run)
     assert after.values["blur"] != before.values["blur"]
+
+
+def test_crowns_before_the_camera_or_its_target_reject_a_camera(drawer):
+    scene = drawer.scene("a")
+    level = rotation.turned(scene.ground.frame, np.zeros(3), 0.0, 0.0, 0.0)
+
+    def eye(height):
+        return placement.Pose(np.array([0.0, 0.0, scene.ground.up(0.0, 0.0)[0] + height]), level)
+
+    far = np.array([0.0, 2000.0, scene.ground.up(0.0, 2000.0)[0] + 300.0])
+    placement.check_trees(scene, eye(400.0), (0.5, 0.4), far)
+    with pytest.raises(placement.Rejected, match="behind trees"):
+        placement.check_trees(scene, eye(15.0), (0.5, 0.4), far)
+    steep = rotation.turned(scene.ground.frame, np.zeros(3), 0.0, 80.0, 0.0)
+    assert scene.crowded(eye(45.0).position, steep, (0.5, 0.4), 40.0) > 0.5  # crowns of 25 m below fill it
+    assert scene.crowded(eye(45.0).position, level, (0.5, 0.4), 40.0) < 0.5
+
+
+def test_burned_ground_has_no_unburned_islands(drawer):
+    scene = drawer.scene("a")
+    row, column = scene.ground.indices(*scene.ground.geodetic(*scene.burned[:, :2].T))
+    assert (scene.ground.arrival_at(np.round(row), np.round(column)) < 1.0e8).all()
 
 
 def test_a_camera_in_the_smoke_is_drawn_again(drawer, monkeypatch):

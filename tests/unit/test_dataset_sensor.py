@@ -43,6 +43,14 @@ def test_noise_has_the_variance_of_the_model(level):
     assert light.std() == pytest.approx(expected, rel=0.01)
 
 
+def test_an_exposure_that_rises_in_the_dark_has_more_noise():
+    values = {name: value.default.quantile(0.5) for name, value in distributions.VALUES.items()}
+    day, night = SensorSettings.of(values), SensorSettings.of(values, risen=4.0)
+    assert night.full_well == pytest.approx(day.full_well / 2.0**1.2)
+    assert night.read_noise == pytest.approx(2.0**1.2 * day.read_noise)
+    assert night.visible()["exposure_risen_stops"] == 4.0
+
+
 def test_noise_depends_on_the_key_alone():
     made = SensorSettings(blur=0.5, full_well=5000.0, read_noise=0.002, netd=0.05)
     first, again = (sensor.apply(grey(0.5), made, KEYS) for _ in range(2))

@@ -68,10 +68,16 @@ def test_heights_are_above_the_sea_and_above_the_ground():
     assert place.height_above_sea(far)[0] == pytest.approx(450.0 + 20_000.0**2 / (2 * 6.37e6), abs=0.3)
 
 
+def grey(depth, contrast):
+    """Make a picture whose land is darker than its sky by a contrast."""
+    return np.repeat(np.where(np.isfinite(depth), 0.6 - contrast, 0.6)[..., None], 3, axis=-1)
+
+
 @pytest.mark.parametrize("pitch", [-12.0, -5.0, 4.0])
 def test_the_skyline_of_a_plane_is_the_horizon(pitch):
     camera = plain_samples.looking(pitch, size=(640, 480))
-    (line,) = survey.skyline(plain_samples.plane(camera).depth)
+    depth = plain_samples.plane(camera).depth
+    (line,) = survey.skyline(depth, grey(depth, 0.1), 0.02)
     level = camera.cy + camera.fy * np.tan(np.radians(pitch))
     assert line[:, 1] == pytest.approx(level, abs=1.0)
     assert (line[0, 0], line[-1, 0]) == (0.5, 639.5)
@@ -80,10 +86,20 @@ def test_the_skyline_of_a_plane_is_the_horizon(pitch):
 def test_a_skyline_is_divided_where_a_trunk_reaches_the_upper_edge():
     depth = plain_samples.plane(plain_samples.looking(-2.0)).depth.copy()
     depth[:, 30:33] = 8.0
-    lines = survey.skyline(depth)
+    lines = survey.skyline(depth, grey(depth, 0.1), 0.02)
     assert [(line[0, 0], line[-1, 0]) for line in lines] == [(0.5, 29.5), (33.5, 63.5)]
-    assert survey.skyline(np.full((48, 64), np.inf)) == []
-    assert survey.skyline(np.full((48, 64), 10.0)) == []
+    for alone in (np.full((48, 64), np.inf), np.full((48, 64), 10.0)):
+        assert survey.skyline(alone, grey(alone, 0.1), 0.02) == []
+
+
+def test_haze_that_hides_the_land_hides_the_skyline():
+    depth = plain_samples.plane(plain_samples.looking(-2.0)).depth
+    assert survey.skyline(depth, grey(depth, 0.01), 0.02) == []
+    half = grey(depth, 0.01)
+    half[:, :32] = grey(depth, 0.1)[:, :32]
+    (line,) = survey.skyline(depth, half, 0.02)
+    assert line[0, 0] == 0.5
+    assert line[-1, 0] == pytest.approx(32.0, abs=5.0)
 
 
 def ring(place):
