@@ -342,6 +342,11 @@ def _parser() -> argparse.ArgumentParser:
     build.add_argument(
         "--volumes", action="store_true", help="also write the smoke volumes of all frames, for a farm"
     )
+    build.add_argument(
+        "--live",
+        action="store_true",
+        help="also build the live scene, for headsets, and show it",
+    )
     tiles.add_access(build)
 
     bake = command("bake", "prepare smoke for render, or write smoke volumes", help_texts.BAKE)

@@ -357,7 +357,15 @@ def build(arguments: argparse.Namespace) -> None:
     if arguments.out.suffix != ".blend":
         raise UsageError(f"-o: {arguments.out} does not end in .blend; name a .blend file")
     access, source = _tile_access(arguments), _find_source(arguments)
-    build.run(source, arguments.out, Reporter(), say, access=access, volumes=arguments.volumes)
+    build.run(
+        source,
+        arguments.out,
+        Reporter(),
+        say,
+        access=access,
+        volumes=arguments.volumes,
+        live=arguments.live,
+    )
     result(arguments.out)
 
 

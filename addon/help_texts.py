@@ -94,7 +94,10 @@ BUILD = """\
 The file can be opened, played and rendered without the add-on. Its smoke volumes are files in the cache
 folder, about 50 MB per frame of the example. Without --volumes they are written later: by the add-on for
 the frames that you choose, by the add-on before a frame is rendered in Blender, or by `bake --volumes`. A
-frame without volumes says so in the picture. `render` does not need them."""
+frame without volumes says so in the picture. `render` does not need them.
+
+--live adds the same shot in a form that 3D views and headsets draw fast, and shows it there. Renders always
+show the film's scene. The collection "Firetwin Live" has the live scene."""
 
 BAKE = """\
 Without --volumes, `bake` does the work on smoke that `render` otherwise does: it solves the flow, or writes

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .ground_texture import encode
+from ..scene.terrain.ground_picture import encode
 
 _SIZE = 256, 128  # rows, columns
 _RIM, _CORE = np.array((1.0, 0.12, 0.008)), np.array((1.0, 0.55, 0.15))  # linear, as in the flames' material

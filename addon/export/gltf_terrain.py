@@ -11,11 +11,11 @@ import numpy as np
 from firetwin_core import sensor, terrain
 from numpy.typing import NDArray
 
+from ..scene.terrain import ground_picture
 from ..shot.shot import Shot
 from ..shot.surface import mesh_tolerance
 from ..shot.terrain.terrain import NEVER
 from ..tiles.make import glb, pictures
-from . import ground_texture
 from .gltf_document import Document
 from .scene_content import Array, TerrainMesh
 
@@ -28,7 +28,7 @@ BEFORE = -1.0e12
 def add(document: Document, shot: Shot, span: tuple[float, float]) -> None:
     """Append the ground of a shot, with the arrival times of a span of model times (s)."""
     mesh = _mesh(shot)
-    ground = document.texture("ground", pictures.encode(ground_texture.paint(shot, np.array([BEFORE]))[0]))
+    ground = document.texture("ground", pictures.encode(ground_picture.paint(shot, np.array([BEFORE]))[0]))
     arrival, step = encode_arrival(_arrival(shot), *span)
     extras = {"arrival": {"texture": document.texture("arrival", arrival), "step_s": step, "never": _NEVER}}
     material = document.material("ground", texture=ground, extras=extras)

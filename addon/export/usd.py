@@ -12,7 +12,8 @@ from typing import Any
 import firetwin_core
 import numpy as np
 
-from . import ground_texture, places, scene_job, usd_library
+from ..scene.terrain import ground_picture
+from . import places, scene_job, usd_library
 from .request import ExportRequest
 from .scene_content import SceneContent
 from .scene_job import SceneExport
@@ -49,7 +50,7 @@ def write_content(content: SceneContent, export: SceneExport) -> list[Path]:
     if content.terrain is not None:
         times = dict(zip(content.frames.tolist(), content.times.tolist(), strict=True))
         frames = usd_forest.burning_frames(content, PICTURES)
-        pictures = ground_texture.paint(export.shot, np.array([times[frame] for frame in frames]))
+        pictures = ground_picture.paint(export.shot, np.array([times[frame] for frame in frames]))
         layers.append(usd_terrain.write(content, out, dict(zip(frames, pictures, strict=True))))
     if content.plants:
         layers.append(usd_forest.write(content, out))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .. import files
 from ..errors import disk_is_full, full_disk_error, input_error, is_nearly_full
@@ -15,6 +16,11 @@ from . import worker
 from .tiles import imagery, selection
 from .tiles.access import TileAccess
 
+if TYPE_CHECKING:
+    import bpy
+
+    from ..shot.shot import Shot
+
 
 def run(
     choice: ShotSource,
@@ -24,6 +30,7 @@ def run(
     stop: worker.Stop | None = None,
     access: TileAccess | None = None,
     volumes: bool = False,
+    live: bool = False,
 ) -> None:
     """Build the scene and save it as `out`, a .blend file.
 
@@ -31,6 +38,8 @@ def run(
     ----------
     volumes
         Also write the smoke volumes of all frames that cameras film.
+    live
+        Also build the live scene, and show it in 3D views.
     access
         Access to tiles.
 
@@ -46,7 +55,7 @@ def run(
     pack = ("pack", "the .blend file (render makes pictures without one)")
     selection.prepare(choice, (), progress, tell, stop, access, [pack])
     imagery.prepare(choice, (), progress, tell, stop, access)
-    task = {"choice": choice.plain(), "out": str(out), "volumes": volumes}
+    task = {"choice": choice.plain(), "out": str(out), "volumes": volumes, "live": live}
     missing = worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)
     if missing:
         scene, have = choice.scene or choice.run, "has" if missing == 1 else "have"
@@ -73,7 +82,7 @@ def _writable(out: Path) -> None:
 
 
 def in_blender(
-    choice: dict[str, str], out: str, volumes: bool, progress: Progress, tell: MessageCallback
+    choice: dict[str, str], out: str, volumes: bool, live: bool, progress: Progress, tell: MessageCallback
 ) -> int:
     """Build the scene and save it; return the number of frames whose smoke volume is missing."""
     from ..blender import viewport
@@ -91,11 +100,24 @@ def in_blender(
     stage = worker_scene.build_scene(shot, progress, tell)
     volume_files.store_source(stage, scene_file.portable(source.settings()), source.beside)
     notice.build(shot, stage)
+    if live:
+        _build_live(shot, stage.scene, progress, tell)
     viewport.prepare_file()
     volume_files.make_paths_relative(Path(out))
     save(Path(out), relative_remap=False)
     filmed = bake.shot_frames(shot) if shot.settings.smoke.enabled else ()
     return len(volume_files.missing(stage, filmed))
+
+
+def _build_live(shot: Shot, scene: bpy.types.Scene, progress: Progress, tell: MessageCallback) -> None:
+    """Build the live scene, show it in 3D views, and tell what both scenes cost."""
+    from ..scene.live import build, cost, switch
+
+    for part in build.steps(shot, scene, tell=tell, progress=progress):
+        progress(0, 1, part)
+    switch.show_live(scene, True)
+    tell(f"film scene in 3D views: {cost.measure(scene, False).text()}")
+    tell(f"live scene: {cost.measure(scene, True).text()}")
 
 
 def save(out: Path, **how: bool) -> None:

@@ -23,6 +23,7 @@ from . import (
     job,
     keys,
     landmarks,
+    live,
     panel_order,
     preferences,
     quality,
@@ -136,6 +137,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     new = new or uid != before
     told: list[str] = []
     yield from build.steps(shot, owned.scene(uid), parts, told.append)
+    yield from live.rebuild(shot, uid, parts)
     changed_settings.store_digests(owned.scene(uid).firetwin, then, parts)
     _finish_build(owned.scene(uid), shot, parts, new)
     if "smoke" in parts:
@@ -273,6 +275,7 @@ class FIRETWIN_PT_build(SidebarPanel, bpy.types.Panel):
         column.prop(settings, "bake_smoke")
         solve.draw(column, settings)
         smoke_volumes.draw(context, layout)
+        live.draw(column, context.scene)
         labelled_row(column, "Seed").prop(settings, "seed", text="")
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False
@@ -285,6 +288,7 @@ classes = (
     FIRETWIN_OT_solve,
     FIRETWIN_OT_remove,
     *view.classes,
+    *live.classes,
     FIRETWIN_MT_parts,
     FIRETWIN_PT_build,
 )

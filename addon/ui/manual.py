@@ -51,6 +51,8 @@ _OPERATORS = {
     "stop": "artists#2-choose-the-time-and-build",
     "copy": "artists#next-steps",
     "solve": "how/smoke",
+    "live": "vr#the-live-scene",
+    "show_live": "vr#the-live-scene",
     "smoke_volumes": "pipelines#smoke-in-blend-files",
     "jump": "artists#2-choose-the-time-and-build",
     "window": "artists#2-choose-the-time-and-build",

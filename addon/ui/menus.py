@@ -59,6 +59,8 @@ MENUS: dict[str, tuple[Line, ...]] = {
         Entry("solve", icon="MOD_FLUIDSIM"),
         Entry("smoke_volumes", "Write smoke of this frame", "OUTLINER_DATA_VOLUME", {"which": "frame"}),
         Entry("smoke_volumes", "Write smoke of playback range", "OUTLINER_DATA_VOLUME", {"which": "range"}),
+        Entry("live", icon="SHADING_RENDERED"),
+        Entry("show_live", icon="SHADING_RENDERED"),
         Entry("quality", "Set quality", choice="level"),
         Entry("preset", icon="ADD"),
         Submenu("FIRETWIN_MT_presets", "Use saved preset"),

@@ -9,6 +9,8 @@ import bpy
 
 GERMAN = {
     # operators
+    "Build live scene": "Live-Szene erstellen",
+    "Switch live scene": "Live-Szene umschalten",
     "Add VR landmarks": "VR-Landmarken hinzufügen",
     "Start or stop VR": "VR starten oder beenden",
     "Start VR at landmark": "VR an Landmarke starten",

@@ -2,7 +2,7 @@
 
 import numpy as np
 from firetwin.export import flame_picture
-from firetwin.export.ground_texture import encode
+from firetwin.scene.terrain.ground_picture import encode
 
 
 def test_a_flame_is_hot_inside_clear_outside_and_the_same_each_time():

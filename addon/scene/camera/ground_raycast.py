@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...blender import owned
 from ...blender.owned import Stage
 
+_GROUNDS = "Ground", "Live Ground"  # of the film's scene and of the live scene, of which one is hidden
 _SKY = 50_000.0  # m, above any terrain
 
 
@@ -29,14 +30,15 @@ def height_above_terrain(stage: Stage, places: NDArray[np.float64]) -> float:
 
 
 def cast_ray(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
-    """Intersect a ray in the scene with the terrain; None without an intersection."""
-    ground = next((obj for obj in stage.root.all_objects if _is_terrain(obj)), None)
-    if ground is None:
+    """Intersect a ray in the scene with the terrain that 3D views show; None without an intersection."""
+    layer = stage.scene.view_layers[0]
+    grounds = [obj for name in _GROUNDS for obj in stage.root.all_objects if _is_terrain(obj, name)]
+    if not grounds:
         return None
+    ground = next((obj for obj in grounds if obj.visible_get(view_layer=layer)), grounds[0])
     inverse = ground.matrix_world.inverted()
     start = inverse @ Vector(origin)
     way = (inverse.to_3x3() @ Vector(direction)).normalized()
-    layer = stage.scene.view_layers[0]
 
     def meet() -> tuple[bool, Vector]:
         return ground.evaluated_get(layer.depsgraph).ray_cast(start, way, distance=1.0e6)[:2]
@@ -56,5 +58,5 @@ def clearance_offset(stage: Stage, place: Sequence[float] | NDArray[np.float64],
     return 0.0 if ground is None else float(max(ground + clearance - np.asarray(place)[2], 0.0))
 
 
-def _is_terrain(obj: bpy.types.Object) -> bool:
-    return obj.type == "MESH" and owned.is_ours(obj) and obj.get(owned.NAME) == f"{owned.ROOT} Ground"
+def _is_terrain(obj: bpy.types.Object, name: str) -> bool:
+    return obj.type == "MESH" and owned.is_ours(obj) and obj.get(owned.NAME) == f"{owned.ROOT} {name}"

@@ -21,10 +21,11 @@ GRID = "grid"
 _OUT = 40.0  # rows beyond the run at which the apron's cells reach their full size: seven run cells
 _SOFT = 12.0  # rows beyond the run over which the apron's forest edges are softened
 _EDGE = 0.35  # kg/m2 of canopy fuel at which the shader has half forest and half open land
-_LARGEST = 2048  # pixels along an image's side; larger grids are averaged to this size
+LARGEST = 2048  # pixels along an image's side; larger grids are averaged to this size
 _FUEL, _FIRE, _FRONT, _COVER, _SCAR = (
     f"Firetwin Ground {name}" for name in ("Fuel", "Fire", "Front", "Cover", "Scar")
 )
+_HALF = 2048.0  # up to which half precision is finer than 1
 _FAINTEST = 30.0  # kW/m, least intensity of a fire that spreads (assumed)
 NAMES = {
     "canopy_fuel": (_FUEL, 0),
@@ -57,7 +58,7 @@ def create_images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]
     `mapped` (1 where a map has data, so that nothing is procedural) are added.
     """
     ground = shot.ground
-    size = -(-max(ground.shape) // _LARGEST)
+    size = -(-max(ground.shape) // LARGEST)
     known = {
         "canopy_fuel": _soften_edges(ground),
         "bare": ground.bare,
@@ -70,17 +71,17 @@ def create_images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]
         "heat": np.log(np.maximum(shot.front.intensity, _FAINTEST)),
         "load": ground.fields.surface_fuel,
     }
-    thin = {name: _downsample(field, size) for name, field in known.items()}
+    thin = {name: downsample(field, size) for name, field in known.items()}
     thin["stand"] = _stand_cover(shot, grown, size)
     made = {}
     if biomes.choose(shot).biome.open_land is not None:
         thin |= {
-            "shrub": _downsample(cover.shrubs(shot), size),
-            "hollow": _downsample(cover.hollows(ground), size),
+            "shrub": downsample(cover.shrubs(shot), size),
+            "hollow": downsample(cover.hollows(ground), size),
         }
-        thin["mapped"] = _downsample(cover.mapped(shot), size)
+        thin["mapped"] = downsample(cover.mapped(shot), size)
     for image in dict.fromkeys(NAMES[name][0] for name in thin):
-        made[image] = _float_image(
+        made[image] = float_image(
             image, [thin[name] for name, (holder, _) in NAMES.items() if holder == image and name in thin]
         )
     return made
@@ -94,7 +95,7 @@ def texture_coordinates(
     The third coordinate is 0 within the run, and 1 on an apron of `margin` rows where its cells have full
     size.
     """
-    size = -(-max(shape) // _LARGEST)
+    size = -(-max(shape) // LARGEST)
     rows, columns = (size * -(-count // size) for count in shape)
     beyond = [_lines_to_run(at, count, margin) for at, count in zip((row, column), shape, strict=True)]
     out = np.clip(np.maximum(*beyond) / _OUT, 0.0, 1.0) if margin else 0.0 * row
@@ -167,7 +168,7 @@ class Fields:
         return self._channels[image][channel]
 
 
-def _downsample(field: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+def downsample(field: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     """Average blocks of size x size points; edge values extend the field."""
     if size == 1:
         return field
@@ -178,13 +179,17 @@ def _downsample(field: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     return total / size**2
 
 
-def _float_image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Image:
-    """Create a float image without colour management, packed into the .blend file."""
+def float_image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Image:
+    """Create a float image without colour management, packed into the .blend file.
+
+    EEVEE reads float images in half precision by default, which is too coarse for times.
+    """
     rows, columns = channels[0].shape
     image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True, is_data=True)
     pixels = np.ones((rows, columns, 4), np.float32)
     for index, channel in enumerate(channels):
         pixels[..., index] = channel
+    image.use_half_precision = float(np.abs(pixels).max()) < _HALF
     image.pixels.foreach_set(pixels.ravel())
     image.pack()
     return owned.mark(image)
@@ -222,8 +227,8 @@ def _colour_image(name: str, picture: orthophoto.OrthophotoImage) -> bpy.types.I
 def _stand_cover(shot: Shot, grown: Stand | None, size: int) -> NDArray[np.float64]:
     """Return the fraction of forest cover that is instanced trees, which the ground's material omits."""
     fields = shot.ground.fields
-    latitude, longitude = (_downsample(axis[None], size)[0] for axis in (fields.latitude, fields.longitude))
-    elevation = _downsample(fields.elevation, size)
+    latitude, longitude = (downsample(axis[None], size)[0] for axis in (fields.latitude, fields.longitude))
+    elevation = downsample(fields.elevation, size)
     if grown is None or not shot.perspective_paths:
         return np.zeros(elevation.shape)
     place = shot.ground.frame.forward_grid(latitude, longitude, elevation)

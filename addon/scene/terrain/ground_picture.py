@@ -1,4 +1,4 @@
-"""Ground texture of exports: one picture of the ground in the terrain's texture coordinates, without Blender.
+"""Ground picture: the ground in one picture, in the terrain's texture coordinates, without Blender.
 
 It has the mean colours of the ground's material, an orthophoto where the scene has one, and the burned area
 at a time. The material itself is made of noise at the size of pixels, for each view.
@@ -10,18 +10,18 @@ import numpy as np
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
-from ..imaging import srgb
-from ..scene.forest import biomes
-from ..shot.shot import Shot
-from ..shot.surface import orthophoto
-from ..shot.terrain import noise
+from ...imaging import srgb
+from ...shot.shot import Shot
+from ...shot.surface import orthophoto
+from ...shot.terrain import noise
+from ..forest import biomes
 
 LARGEST = 2048  # pixels, longest side
 _BARE, _GRASS, _FOREST = (0.120, 0.110, 0.100), (0.080, 0.070, 0.045), (0.030, 0.040, 0.018)
 _WATER, _CHAR, _ASH = (0.020, 0.045, 0.070), (0.020, 0.019, 0.018), (0.048, 0.046, 0.043)
 _DENSE, _VARIED = 0.7, 0.25  # kg/m2 of canopy fuel that hides grass; range of the variation between cells
 _STEPS = 4.0  # steps of the variation: few values make small files
-_PHOTO, _SHOULDER = 0.5, 0.8  # reflectances of a photograph, as in `scene.terrain.material`
+_PHOTO, _SHOULDER = 0.5, 0.8  # reflectances of a photograph, as in `material`
 
 
 def paint(shot: Shot, times: NDArray[np.float64], largest: int = LARGEST) -> list[NDArray[np.uint8]]:

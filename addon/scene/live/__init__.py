@@ -1,0 +1,1 @@
+"""Live scene: the shot in a form that a 3D view and a headset draw fast, in the same timeline."""

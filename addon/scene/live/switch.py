@@ -1,0 +1,61 @@
+"""Switch between the film's scene and the live one in 3D views; renders always show the film's scene.
+
+Only collections are hidden and shown, so a switch builds nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import bpy
+
+from ...blender import owned
+from ...blender.owned import Stage
+
+COLLECTION = "Live"
+REPLACED = ("Terrain", "Forest", "Fire", "Smoke")
+"""Parts of the film's scene that the live scene replaces."""
+_SHOWN = "firetwin_live"  # custom property of the live collection: 1 if 3D views show it
+
+
+def collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    """Return the collection "Firetwin Live" of a scene; None if it has none."""
+    stage = owned.find_stage(scene)
+    return None if stage is None else next(_parts(stage, COLLECTION), None)
+
+
+def has_live(scene: bpy.types.Scene) -> bool:
+    """Return True if a live scene was built."""
+    found = collection(scene)
+    return found is not None and bool(found.all_objects)
+
+
+def is_live(scene: bpy.types.Scene) -> bool:
+    """Return True if 3D views show the live scene."""
+    found = collection(scene)
+    return found is not None and bool(found.all_objects) and bool(found.get(_SHOWN))
+
+
+def show_live(scene: bpy.types.Scene, on: bool) -> None:
+    """Show the live scene in 3D views instead of the film's, or the reverse; nothing without a live scene."""
+    stage, live = owned.stage(scene), collection(scene)
+    if live is None or not has_live(scene):
+        return
+    live[_SHOWN] = int(on)
+    live.hide_render, live.hide_viewport = True, not on
+    for name in REPLACED:
+        for part in _parts(stage, name):
+            part.hide_viewport = on
+
+
+def empty(stage: Stage) -> bpy.types.Collection:
+    """Return the collection of the live scene without objects; 3D views show the film's scene."""
+    show_live(stage.scene, False)
+    live = stage.part(COLLECTION)
+    live.hide_render = live.hide_viewport = True
+    live[_SHOWN] = 0
+    return live
+
+
+def _parts(stage: Stage, name: str) -> Iterator[bpy.types.Collection]:
+    return (child for child in stage.root.children if owned.is_ours(child, name))

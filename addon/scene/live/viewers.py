@@ -1,0 +1,30 @@
+"""Viewers of the live scene: the places around which it is finest."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...shot.shot import Shot
+
+_MOMENTS = 5  # of each camera
+_NEAREST = 20.0  # m
+
+
+def places(shot: Shot) -> NDArray[np.float64]:
+    """Return places (n, 3), m: of cameras near the ground, and of what they look at."""
+    found = [np.zeros((0, 3))]
+    for path in shot.perspective_paths:
+        frames = np.linspace(0, len(path.position) - 1, _MOMENTS).round().astype(int)
+        found += [path.position[frames], path.target[frames]]
+    if len(found) == 1:
+        found.append(np.array([[0.0, 0.0, float(np.nanmax(shot.ground.fields.elevation))]]))
+    return np.concatenate(found)
+
+
+def distance(shot: Shot, positions: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return distances (...), m, of positions (..., 3) from the nearest viewer."""
+    nearest = np.full(positions.shape[:-1], np.inf)
+    for place in places(shot):
+        np.minimum(nearest, np.linalg.norm(positions - place, axis=-1), out=nearest)
+    return np.maximum(nearest, _NEAREST)
