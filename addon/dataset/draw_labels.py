@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,7 @@ from .files import Masks
 from .truth import Annotation, Box, Truth
 
 if TYPE_CHECKING:
+    from PIL.Image import Image
     from PIL.ImageDraw import ImageDraw
 
 Picture = NDArray[np.uint8]
@@ -109,6 +111,19 @@ def draw(picture: Picture, labelled: Truth, masks: Masks) -> Picture:
     return np.array(image)
 
 
+def draw_small(picture: Image, labelled: Truth, width: int) -> Image:
+    """Draw boxes onto a picture, reduced to a width in pixels."""
+    from PIL import ImageDraw
+
+    small = picture.convert("RGB")
+    small.thumbnail((width, width))
+    scale, pen = small.width / labelled.camera.width, ImageDraw.Draw(small)
+    for each in labelled.annotations:
+        box, amodal = (_scaled(found, scale) for found in (each.box, each.amodal_box))
+        _draw_boxes(pen, replace(each, box=box, amodal_box=amodal))
+    return small
+
+
 def caption(annotation: Annotation) -> str:
     """Describe an annotation in a few words: ``smoke 2, 4.2 km, top 610 m``."""
     words = [f"{_name(annotation)} {annotation.id}"]
@@ -137,6 +152,12 @@ def _tint(picture: Picture, layer: NDArray[np.uint8], colour: tuple[int, int, in
             other = np.roll(layer, shift, axis)
             outline |= inside & (other > 0) & (other != layer)
     picture[outline] = colour
+
+
+def _scaled(box: Box, scale: float) -> Box:
+    """Scale a box; it has at least 2 pixels on each side."""
+    x0, y0, x1, y1 = (scale * side for side in box)
+    return x0, y0, max(x1, x0 + 2.0), max(y1, y0 + 2.0)
 
 
 def _draw_boxes(pen: ImageDraw, each: Annotation) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 from collections.abc import Collection
@@ -12,6 +13,8 @@ from ..progress import count, duration, size
 
 _VISIT_SECONDS, _SAMPLE_SECONDS = 20.0, 25.0
 """Processor seconds of a visit (scene and smoke) and of a sample of 640 x 480 pixels (`docs/datasets.md`)."""
+_LEAST = 5
+"""Finished samples from which an estimate takes their cost."""
 _PIXELS = 640 * 480
 _SAMPLE_BYTES = 2.8e6
 """Bytes of a sample of 640 x 480 pixels with all maps, by the mean of 8 samples of 240 x 180."""
@@ -50,7 +53,13 @@ class Estimate:
         return found
 
 
-def estimate(missing: Collection[int], visits: int, resolution: tuple[int, int], out: Path) -> Estimate:
+def estimate(
+    missing: Collection[int],
+    visits: int,
+    resolution: tuple[int, int],
+    out: Path,
+    finished: Collection[Path] = (),
+) -> Estimate:
     """Estimate time and size of missing samples.
 
     Parameters
@@ -61,9 +70,14 @@ def estimate(missing: Collection[int], visits: int, resolution: tuple[int, int],
         Number of scenes that contain them.
     resolution
         Size of a picture, pixels.
+    finished
+        Files with the processor seconds of finished samples (see `produce.cost_file`).
     """
     pixels = resolution[0] * resolution[1] / _PIXELS
-    work = visits * _VISIT_SECONDS + len(missing) * _SAMPLE_SECONDS * pixels
+    if len(finished) >= _LEAST:
+        work = len(missing) * sum(map(_seconds, finished)) / len(finished)
+    else:
+        work = visits * _VISIT_SECONDS + len(missing) * _SAMPLE_SECONDS * pixels
     return Estimate(
         len(missing),
         visits,
@@ -71,6 +85,12 @@ def estimate(missing: Collection[int], visits: int, resolution: tuple[int, int],
         len(missing) * _SAMPLE_BYTES * pixels,
         _free(out),
     )
+
+
+def _seconds(cost: Path) -> float:
+    """Read the processor seconds of a finished sample, with its share of its scene."""
+    parts = json.loads(cost.read_text(encoding="utf-8"))["processor_seconds"]
+    return float(sum(parts.values()))
 
 
 def _free(out: Path) -> int | None:

@@ -71,7 +71,8 @@ class Production:
         """Estimate time and size of the missing samples."""
         visits = self.unfinished()
         missing = [index for visit in visits for index in self.missing(visit)]
-        return estimate(missing, len(visits), self.plan.resolution, self.out)
+        costs = [path for each in self.draws if (path := cost_file(self.out, each)).is_file()]
+        return estimate(missing, len(visits), self.plan.resolution, self.out, costs)
 
 
 def prepare(plan: Plan, out: Path, only: str = "", progress: Progress = silent) -> Production:

@@ -11,18 +11,17 @@ from typing import TYPE_CHECKING, Any
 from .. import files
 from ..html_text import data_uri, quote
 from ..progress import count
-from . import histogram, licences, table
+from . import draw_labels, histogram, licences, table
 from .about import About
 from .formats import common
-from .truth import CATEGORIES, Annotation, Truth
+from .truth import Annotation, Truth
 
 if TYPE_CHECKING:
-    from PIL.Image import Image
+    from PIL import Image
 
 NAME = "report.html"
 SPLIT_COLOURS = {"train": "#0072b2", "val": "#e69f00", "test": "#009e73"}  # Okabe and Ito (2008)
 KIND_COLOURS = {"fire": "#d55e00", "without fire": "#8a97a0"}
-BOX_COLOURS = {CATEGORIES[0].id: (255, 90, 40), CATEGORIES[1].id: (255, 255, 255)}
 _SPARE = "#cc79a7"
 _LEFT_OUT = {"index", "seed", "attempt", "split", "utc", "name", "moment"}
 _VALUES = "values"  # of a draw: their names need no prefix
@@ -115,19 +114,12 @@ def _sheet(folder: Path, samples: Sequence[Truth]) -> Iterator[str]:
         yield f'<figure><img src="{uri}" alt="{text}"><figcaption>{text}</figcaption></figure>'
 
 
-def thumbnail(folder: Path, truth: Truth) -> Image:
+def thumbnail(folder: Path, truth: Truth) -> Image.Image:
     """Draw a small picture of a sample with its boxes."""
-    from PIL import Image, ImageDraw
+    from PIL import Image
 
     with Image.open(folder / common.picture(truth)) as opened:
-        small = opened.convert("RGB")
-    small.thumbnail((_THUMBNAIL, _THUMBNAIL))
-    scale = small.width / truth.camera.width
-    draw = ImageDraw.Draw(small)
-    for each in truth.annotations:
-        x0, y0, x1, y1 = (scale * value for value in each.box)
-        draw.rectangle((x0, y0, max(x1, x0 + 2), max(y1, y0 + 2)), outline=BOX_COLOURS[each.category])
-    return small
+        return draw_labels.draw_small(opened, truth, _THUMBNAIL)
 
 
 def _draws(about: About, samples: Sequence[Truth], splits: Mapping[str, str]) -> Iterator[str]:

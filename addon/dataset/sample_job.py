@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import json
+import pickle
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -14,11 +16,10 @@ from ..progress import MessageCallback, Progress
 from ..render import fingerprint
 from ..run import content
 from ..shot import picture_credits
-from . import files, imagery, licences, plan_file, produce
-from .draw import Draw
-from .draws import Drawer
+from . import files, imagery, licences, produce
 from .places import Visit
-from .plan import Plan
+from .plan import Plan, PlanRun
+from .run_scene import RunScene
 
 
 def make(
@@ -29,28 +30,29 @@ def make(
     progress: Progress,
     tell: MessageCallback,
 ) -> None:
-    """Render, label and write the missing samples of a visit in a worker process (`produce.Maker`)."""
+    """Render, label and write the missing samples of a visit in a worker process (`produce.Maker`).
+
+    The worker gets the plan and the draws themselves: drawing them again takes time, and the file of the plan
+    can have changed.
+    """
     task = {
-        "plan": str(plan.path.absolute()),
-        "members": [each.index for each in visit.draws],
+        "work": base64.b64encode(pickle.dumps((plan, visit))).decode(),
         "missing": list(missing),
         "out": str(out.absolute()),
     }
     worker.run(f"{__name__}:in_blender", task, progress, tell=tell)
 
 
-def in_blender(
-    plan: str, members: list[int], missing: list[int], out: str, progress: Progress, tell: MessageCallback
-) -> None:
+def in_blender(work: str, missing: list[int], out: str, progress: Progress, tell: MessageCallback) -> None:
     """Make samples; worker side."""
     from . import labels, render_samples, sensor, survey
 
-    drawer, folder = Drawer(plan_file.read(plan)), Path(out)
-    visit = Visit(tuple(drawer.draw(index) for index in members))
-    scene = drawer.scene(visit.draws[0].run)
-    source = _source(drawer, visit.draws[0], folder)
+    plan, visit = _unpacked(work)
+    planned, folder = plan.run(visit.draws[0].run), Path(out)
+    scene = RunScene(planned)
+    source = _source(scene, planned, folder)
     progress(0, len(missing), produce.SAMPLES)
-    for done, (drawn, rendered) in enumerate(render_samples.render(drawer.plan, visit, missing, tell), 1):
+    for done, (drawn, rendered) in enumerate(render_samples.render(plan, visit, missing, tell), 1):
         labelled, masks = labels.label(rendered, survey.of_shot(scene.shot, drawn.time), drawn.index)
         settings = sensor.SensorSettings.of(drawn.values, rendered.risen)
         seeds = {name: drawn.random_seed(name) for name in ("noise", "thermal noise")}
@@ -70,9 +72,13 @@ def in_blender(
         progress(done, len(missing), produce.SAMPLES)
 
 
-def _source(drawer: Drawer, drawn: Draw, out: Path) -> dict[str, Any]:
+def _unpacked(work: str) -> tuple[Plan, Visit]:
+    plan, visit = pickle.loads(base64.b64decode(work))
+    return plan, visit
+
+
+def _source(scene: RunScene, planned: PlanRun, out: Path) -> dict[str, Any]:
     """Describe the sources of a visit's samples for the metadata."""
-    scene, planned = drawer.scene(drawn.run), drawer.plan.run(drawn.run)
     hashes = content.inputs(scene.run, out / produce.WORK)
     found: dict[str, Any] = {
         "run": {"name": scene.run.name, "sha256": content.fingerprint({"run": hashes})},

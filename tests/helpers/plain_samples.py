@@ -35,13 +35,13 @@ def directions(camera: Camera) -> np.ndarray:
 
 
 def plane(camera: Camera, **maps) -> Rendered:
-    """Make the sample of a level plane at z = 0 under a grey sky, with some maps replaced."""
+    """Make the sample of a grey level plane at z = 0 under a lighter sky, with some maps replaced."""
     rays = directions(camera)
     down = rays[..., 2] < 0.0
     depth = np.where(down, camera.to_world[2, 3] / np.where(down, -rays[..., 2], 1.0), np.inf)
     shape = depth.shape
     kind = np.where(down, masks.GROUND, masks.SKY).astype(np.uint8)
-    picture = np.full((*shape, 3), 0.5, np.float32)
+    picture = np.repeat(np.where(down, 0.5, 0.6).astype(np.float32)[..., None], 3, axis=-1)
     dark = np.zeros((*shape, 3), np.float32)
     sample = Rendered(
         rgb=picture,

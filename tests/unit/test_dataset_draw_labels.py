@@ -130,3 +130,17 @@ def test_at_most_24_samples_are_drawn_without_a_list():
     assert draw_labels._chosen(list(range(1, 25)), "") == list(range(1, 25))
     assert len(draw_labels._chosen(list(range(1, 201)), "")) == 23
     assert draw_labels._chosen([7], " ") == [7]
+
+
+def test_small_pictures_have_the_same_boxes():
+    base = labels.label(plain_samples.plane(plain_samples.looking(20.0)), plain_samples.flat_place(), 1)[0]
+    wide = base.camera.width
+    box = (0.25 * wide, 0.0, 0.5 * wide, 0.1 * wide)
+    tiny = (0.75 * wide, 0.0, 0.75 * wide + 1.0, 1.0)
+    hidden = annotation(2, truth.FIRE, tiny)
+    found = replace(base, annotations=(annotation(1, truth.SMOKE, box), hidden))
+    black = Image.new("RGB", (wide, base.camera.height))
+    small = np.array(draw_labels.draw_small(black, found, wide // 2))
+    assert small.shape[1] == wide // 2
+    assert tuple(small[0, wide // 8]) == tuple(small[wide // 20 - 1, wide // 4 - 1]) == SMOKE
+    assert tuple(small[0, 3 * wide // 8]) == FIRE  # a box of one pixel still shows

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import os
 import threading
 
 import fake_samples
@@ -160,6 +161,28 @@ def test_an_estimate_grows_with_samples_and_pixels_and_compares_the_disk(monkeyp
     assert large.seconds > 2 * small.seconds
     assert "the disk has 1 MB left" in small.lines()[1]
     assert estimate.estimate([], 0, (640, 480), tmp_path).lines() == ["all samples are finished"]
+
+
+def test_an_estimate_of_a_set_that_continues_takes_the_cost_of_its_own_samples(tmp_path):
+    costs = [tmp_path / f"{number}.json" for number in range(5)]
+    for number, path in enumerate(costs):
+        path.write_text(json.dumps({"processor_seconds": {"surfaces": 90.0 + number, "classes": 8.0}}))
+    cores = os.cpu_count()
+    found = estimate.estimate(range(10), 3, (640, 480), tmp_path, costs)
+    assert found.seconds == pytest.approx(10 * 100.0 / cores)
+    few = estimate.estimate(range(10), 3, (640, 480), tmp_path, costs[:4])
+    assert few.seconds == estimate.estimate(range(10), 3, (640, 480), tmp_path).seconds
+
+
+def test_a_production_knows_the_cost_of_its_finished_samples(plan, tmp_path, monkeypatch):
+    given = []
+    monkeypatch.setattr(produce, "estimate", lambda *arguments: given.append(arguments[-1]))
+    production = produce.prepare(plan, tmp_path / "set")
+    path = produce.cost_file(tmp_path / "set", 3)
+    path.parent.mkdir(parents=True)
+    path.write_text("{}")
+    production.estimate()
+    assert given == [[path]]
 
 
 def test_work_that_one_process_does_alone_waits_for_another(tmp_path):
