@@ -9,7 +9,7 @@ from typing import Any
 
 from ..progress import Reporter, count, result, say
 from ..shot.schema.frame_list import FrameList
-from . import check, draw_labels, finish, formats, plan_file, produce, sample_job
+from . import check, draw_labels, finish, formats, members, plan_file, produce, sample_job
 from .draws import count_rejects
 from .plan import SPLITS
 from .produce import Production
@@ -29,6 +29,9 @@ def run(arguments: argparse.Namespace) -> int:
         _finish(arguments.folder, names)
         return 0
     plan = plan_file.read(arguments.plan)
+    if any(run.ensemble for run in plan.runs):
+        with produce.alone(arguments.out, "members"):
+            members.convert(plan, Reporter("converting"), say)
     production = produce.prepare(plan, arguments.out, arguments.only, Reporter())
     if arguments.estimate and arguments.json:
         result(json.dumps(_facts(production), indent=1))

@@ -33,6 +33,8 @@ class PlanRun:
         Split of the run, or "any": the plan chooses.
     imagery_license
         SPDX identifier of the licence of photographs of the ground in the scene file; "" without any.
+    ensemble, member
+        Ensemble and name of the member that the run is converted from; None and "" for other runs.
     """
 
     place: str
@@ -41,6 +43,8 @@ class PlanRun:
     weight: float = 1.0
     split: str = ANY
     imagery_license: str = ""
+    ensemble: Path | None = None
+    member: str = ""
 
 
 @dataclass(frozen=True)

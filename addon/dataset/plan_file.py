@@ -11,13 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import input_error, reading
-from ..run.ensemble import ensemble
 from ..shot.schema import either, key, validate
 from ..shot.schema.bounds import file_name, twice
 from ..shot.schema.did_you_mean import suggestion
 from ..shot.schema.toml_positions import Where
 from ..shot.settings.scene_file import TableReader, loads
-from . import distributions
+from . import distributions, members
 from .distributions import DEFAULTS, KINDS, VALUES, Constant, Distribution
 from .plan import ANY, SPLITS, Plan, PlanRun
 from .splits import GROUPS
@@ -35,7 +34,8 @@ class _Run:
     """A run of the data set."""
 
     place: str = key("", "name of the place; runs of one place are in one split")
-    run: Path | None = key(None, "run folder, or scene file, whose settings apply")
+    run: Path | None = key(None, "run folder, or scene file, whose settings apply, or ensemble")
+    members: tuple[str, ...] = key((), 'members of an ensemble, each of which is a run, or "all"')
     name: str = key("", "unique name of the run (name of its folder or scene file)")
     weight: float = key(1.0, "share of the samples, relative to other runs", above=0, at_most=1_000_000)
     split: str = key(ANY, "split of the run's group", choices=(ANY, *SPLITS))
@@ -130,7 +130,7 @@ def parse(text: str, path: Path) -> Plan:
     draws = {name: _distribution(reader, name, value) for name, value in drawn.items()}
     return Plan(
         path=path,
-        runs=tuple(_run(each) for each in found.runs),
+        runs=tuple(run for each in found.runs for run in _runs(each)),
         cameras=dataclasses.asdict(found.cameras),
         negatives=dataclasses.asdict(found.negatives),
         splits=dataclasses.asdict(found.splits),
@@ -153,13 +153,34 @@ _PLAIN = (
 )
 
 
-def _run(found: _Run) -> PlanRun:
+def _runs(found: _Run) -> Iterator[PlanRun]:
+    """Yield the runs of an entry: one, or one for each member of an ensemble, which share its weight."""
     assert found.run is not None  # checked by `_faults`
-    return PlanRun(found.place, found.run, _name(found), found.weight, found.split, found.imagery_license)
+    plain = PlanRun(found.place, found.run, _name(found), found.weight, found.split, found.imagery_license)
+    if not found.members:
+        yield plain
+        return
+    chosen = members.chosen(found.run, found.members)
+    for member, name in zip(chosen, _names(found), strict=True):
+        yield dataclasses.replace(
+            plain,
+            run=members.folder(found.run, member),
+            name=name,
+            weight=plain.weight / len(chosen),
+            ensemble=found.run,
+            member=member,
+        )
 
 
 def _name(found: _Run) -> str:
     return found.name or (found.run.absolute().stem if found.run else "")
+
+
+def _names(found: _Run) -> list[str]:
+    """Return the names of the runs of an entry."""
+    if not found.members or found.run is None or members.fault(found.run, found.members):
+        return [_name(found)]
+    return [f"{_name(found)}-{member}" for member in members.chosen(found.run, found.members)]
 
 
 def _faults(found: _File) -> Iterator[tuple[Where, str]]:
@@ -174,14 +195,14 @@ def _faults(found: _File) -> Iterator[tuple[Where, str]]:
             yield here, "runs.run is missing; name a run folder or a scene file"
         elif not run.run.exists():
             yield (*here, "run"), f"runs.run: there is no {run.run}; check the path"
-        elif run.run.is_dir() and ensemble.sniff(run.run):
-            reason = f"runs.run: {run.run} is an ensemble, which has no heat; convert its members to runs"
-            yield (*here, "run"), reason
-        elif fault := file_name(_name(run)):
+        elif reason := members.fault(run.run, run.members):
+            yield (*here, "members" if run.members else "run"), f"runs.run: {reason}"
+        elif fault := next(filter(None, map(file_name, _names(run))), None):
             yield (*here, "name" if run.name else "run"), f"runs.name {fault}; set another name"
-    names = [_name(run) for run in found.runs]
-    if (second := twice(names)) is not None:
-        yield ("runs", second), f'two runs are called "{names[second]}"; give one another name'
+    named = [(number, name) for number, run in enumerate(found.runs) for name in _names(run)]
+    if (second := twice([name for _, name in named])) is not None:
+        number, name = named[second]
+        yield ("runs", number), f'two runs are called "{name}"; give one another name'
     splits: dict[str, str] = {}
     for number, run in enumerate(found.runs):
         group = run.place if found.split_by != "run" else _name(run)

@@ -35,7 +35,9 @@ def describe(plan: Plan, cache: Path) -> dict[str, Any]:
         hashes = content.inputs(readers.open(settings.run), cache)
         run["sha256"] = content.fingerprint({"run": hashes})
         run["scene_sha256"] = content.sha256(planned.run) if planned.run.is_file() else ""
-        del run["run"]
+        del run["run"], run["ensemble"]
+        if not run["member"]:
+            del run["member"]
     return {"format": _FORMAT, "versions": fingerprint.versions(), "plan": json.loads(json.dumps(found))}
 
 

@@ -26,7 +26,7 @@ _CANOPY = 0.01  # kg/m2, canopy fuel from which there are trees
 TREE = 35.0
 """Height above ground at which a camera is clear of trees, m (assumed)."""
 _OPEN = 5.0  # m, the same without trees (assumed)
-_CROWNS = 25.0  # m above ground, height of crowns that hide what is behind them (assumed)
+_CROWNS = 25.0  # m above ground, height of crowns that hide the land behind them (assumed)
 _CELLS = 0.4  # million flow cells per second of model time, as in `places`
 _RAYS = 7, 5  # across and up a picture, in which smoke and crowns are measured
 _STEPS = 12  # along such a ray

@@ -87,7 +87,8 @@ def _choose(plan: Plan) -> str:
 
 
 def _group(run: PlanRun, by: str) -> str:
-    return run.place if by == "place" else run.name
+    """Return the group of a run; members of one ensemble are one run, as their fires are alike."""
+    return run.place if by == "place" else str(run.ensemble or run.name)
 
 
 def _groups(plan: Plan, by: str) -> dict[str, float]:
