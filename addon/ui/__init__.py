@@ -42,6 +42,7 @@ from . import (
     tiles_panel,
     time,
     translations,
+    viewport,
     vr,
     working,
 )
@@ -68,6 +69,7 @@ classes = (
     *vr.classes,
     *place_names.classes,
     *render.classes,
+    *viewport.classes,
     *background.classes,
     *regrade.classes,
     *section_panels.classes,
@@ -101,6 +103,7 @@ def register() -> None:
     stations_panel.register()
     tile_credits.register()
     feature_panels.register()
+    viewport.register()
     vr.register()
     if bpy.app.module:
         atexit.register(unregister)
@@ -114,6 +117,7 @@ def unregister() -> None:
     working.cancel_task()
     queue.clear()
     vr.unregister()
+    viewport.unregister()
     growing_run.stop()
     feature_panels.unregister()
     maps.clear()

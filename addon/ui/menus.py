@@ -105,6 +105,7 @@ MENUS: dict[str, tuple[Line, ...]] = {
         Entry("queue", "Resume background render", "PLAY", {"what": "go_on"}),
         Entry("queue", "Remove background render", "X", {"what": "remove"}),
         Entry("regrade", "Add Firetwin Regrade to compositor...", "NODE_COMPOSITING"),
+        Entry("viewport_measure", icon="TIME"),
         Entry("f12_files", "Let F12 write files", "OUTPUT", {"on": True}),
         Entry("f12_files", "Stop F12 writing files", "OUTPUT", {"on": False}),
         *(_FARM if is_installed("farm") else ()),
@@ -128,6 +129,7 @@ WITHOUT_ENTRY = {
     "vr_time": "a controller calls it",
     "vr_landmark": "a controller calls it",
     "vr_turn": "a controller calls it",
+    "vr_teleport": "a controller calls it",
 }
 """Operators that only other operators call, and the reason."""
 

@@ -19,6 +19,7 @@ from . import (
     station_selection,
     time,
 )
+from .viewport.panel import ViewportProperties
 from .vr.session import VrProperties
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
@@ -26,7 +27,8 @@ _NOT_COPIED = ("runs", "cameras", "model_time", "station_index", "station_filter
 _SETTINGS = sections.property_annotations(sections.top_level_keys() + sections.sections(), Settings)
 
 
-_Settings: type = type("Settings", (VrProperties, *feature_panels.properties), {"__annotations__": _SETTINGS})
+_BASES = (VrProperties, ViewportProperties, *feature_panels.properties)
+_Settings: type = type("Settings", _BASES, {"__annotations__": _SETTINGS})
 
 
 class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):

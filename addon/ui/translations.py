@@ -17,9 +17,11 @@ GERMAN = {
     "Play or pause in VR": "In VR abspielen oder anhalten",
     "Move time in VR": "Zeit in VR bewegen",
     "Go to landmark in VR": "In VR zur Landmarke gehen",
+    "Teleport in VR": "In VR teleportieren",
     "Turn in VR": "In VR drehen",
     "Start VR at": "VR starten an",
     "VR": "VR",
+    "Measure viewport": "Ansicht messen",
     "Add Firetwin Regrade": "Firetwin Regrade hinzufügen",
     "Add camera from view": "Kamera aus Ansicht hinzufügen",
     "Add run to compare": "Vergleichslauf hinzufügen",
@@ -106,6 +108,7 @@ GERMAN = {
     "Tile Preview": "Kachelvorschau",
     "Tiles": "Kacheln",
     "Time": "Zeit",
+    "Viewport": "Ansicht",
 }
 """German names, by English names. Blender's own words (Szene, Rendern) as in its German interface."""
 

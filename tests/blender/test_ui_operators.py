@@ -141,11 +141,12 @@ KEEPS = {
     "farm_cancel": {},
     "help": {"page": "farm"},
     "vr_start_at": {"name": "Ignition"},
+    "viewport_measure": {},
 }
 BOX = {"name": "set", "tiles": 1, "credits": [], "corners": np.arange(24.0).tolist()}
 ALLOCATION = {"divisions": [], "reasons": [], "left_out": [], "map": {"features": []}}
 LISTENS = {"queue_esc", "station_pick", "stop", "fly"}  # for Esc or a click, and while something goes on
-IN_VR = {"vr_session", "vr_play", "vr_time", "vr_landmark", "vr_turn"}  # need a headset
+IN_VR = {"vr_session", "vr_play", "vr_time", "vr_landmark", "vr_turn", "vr_teleport"}  # need a headset
 
 
 def call(name, options, folder):

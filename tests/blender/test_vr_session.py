@@ -1,10 +1,15 @@
 """Landmarks, actions and frame times of VR sessions, without a session."""
 
+from types import SimpleNamespace
+
 import bpy
 import firetwin
 import pytest
+from firetwin.blender import owned
+from firetwin.scene.camera import ground_raycast
+from firetwin.scene.live import switch
 from firetwin.ui import go_to
-from firetwin.ui.vr import controllers, display, landmark_list, session
+from firetwin.ui.vr import controllers, display, landmark_list, session, teleport
 from mathutils import Matrix, Vector
 
 
@@ -35,6 +40,7 @@ def test_viewers_stand_on_the_ground_and_look_at_the_head(panel):
     scene.frame_set(panel.frames)
     found = landmark_list.pose(scene, "Ignition")
     ground, head = (go_to.find_position(scene, name) for name in ("ignition", "head"))
+    ground.z = ground_raycast.terrain_height(owned.find_stage(scene), ground)
     assert (found.place - ground - Vector((0.0, 0.0, landmark_list.EYE))).length < 1e-3
     way = (head - ground) * Vector((1.0, 1.0, 0.0))
     assert _ahead(found.angle).angle(way) < 1e-3
@@ -56,13 +62,29 @@ def test_the_next_start_is_at_the_chosen_landmark_and_settings_return(panel):
     settings.base_pose_location, settings.clip_end = (1.0, 2.0, 3.0), 123.0
     panel.vr_landmark, panel.vr_scale = "Ignition", "TABLE"
     session.prepare(bpy.context)
-    ground = go_to.find_position(bpy.context.scene, "ignition")
+    ground = landmark_list.pose(bpy.context.scene, "Ignition").place
     assert settings.base_scale == 1000.0
-    assert settings.base_pose_location[2] == pytest.approx(ground.z + landmark_list.EYE + 500.0)
+    assert settings.clip_start < 0.1  # m of the room, in which the ground is half a metre below the eyes
+    assert settings.clip_end == pytest.approx(500.0)
+    assert settings.base_pose_location[2] == pytest.approx(ground.z + 500.0)
     session.restore()
     assert tuple(settings.base_pose_location) == (1.0, 2.0, 3.0)
     assert settings.clip_end == 123.0
     assert settings.base_scale == 1.0
+
+
+@pytest.mark.parametrize(("wanted", "before"), [(True, False), (True, True), (False, False)])
+def test_the_live_scene_is_shown_during_a_session(panel, monkeypatch, wanted, before):
+    shown = [before]
+    monkeypatch.setattr(switch, "has_live", lambda scene: True)
+    monkeypatch.setattr(switch, "is_live", lambda scene: shown[-1])
+    monkeypatch.setattr(switch, "show_live", lambda scene, on: shown.append(on))
+    panel.vr_live = wanted
+    session.prepare(bpy.context)
+    assert shown[-1] is (wanted or before)
+    session.restore()
+    assert shown[-1] is before
+    assert len(shown) == (3 if wanted and not before else 1)
 
 
 def test_every_action_calls_an_operator_that_has_its_options(panel):
@@ -80,6 +102,49 @@ def test_no_control_has_two_actions():
         for side in (("POSITIVE", "NEGATIVE") if action.side == "ANY" else (action.side,))
     ]
     assert len(taken) == len(set(taken))
+
+
+class State(SimpleNamespace):
+    """State of a session whose left controller points down from 100 m above a point."""
+
+    def controller_aim_location_get(self, context, index):
+        return (*self.point.xy, self.point.z + 100.0)
+
+    def controller_aim_rotation_get(self, context, index):
+        return (1.0, 0.0, 0.0, 0.0)  # along -z
+
+
+@pytest.mark.parametrize(("scale", "height"), [("LIFE", 1.7), ("TABLE", 501.7)])
+def test_teleport_places_the_eyes_above_the_ground_that_the_controller_points_at(panel, scale, height):
+    panel.vr_scale = scale
+    ground = landmark_list.pose(bpy.context.scene, "Ignition").place
+    viewer, origin = Vector((10.0, 20.0, 3000.0)), Vector((1.0, 2.0, 3.0))
+    state = State(point=ground, viewer_pose_location=viewer, navigation_location=origin.copy())
+    manager = SimpleNamespace(xr_session_state=state)
+    context = SimpleNamespace(scene=bpy.context.scene, window_manager=manager)
+    _, end = teleport._find_ray(context)
+    assert (ground - end - Vector((0.0, 0.0, landmark_list.EYE))).length < 1e-2
+    teleport._go(context, end)
+    eyes = viewer + state.navigation_location - origin
+    assert (eyes - end - Vector((0.0, 0.0, height))).length < 1e-3
+    assert display._Drawing.is_cut
+    display.stop()
+
+
+def test_a_controller_that_points_at_the_sky_has_no_ray(panel):
+    state = State(point=Vector((1e9, 0.0, 0.0)))
+    manager = SimpleNamespace(xr_session_state=state)
+    assert teleport._find_ray(SimpleNamespace(scene=bpy.context.scene, window_manager=manager)) is None
+
+
+def test_the_first_frame_after_a_cut_is_black_even_if_it_is_late():
+    display.stop()
+    display.fade()
+    black = []
+    for now in (50.0, 50.1, 50.2, 50.4):
+        display._begin_frame(now)
+        black.append(display._Drawing.black)
+    assert black == pytest.approx([1.0, 2 / 3, 1 / 3, 0.0])
 
 
 @pytest.mark.parametrize(("seconds", "slow"), [(None, False), (0.0139, False), (0.02, True)])

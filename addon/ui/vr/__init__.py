@@ -1,8 +1,8 @@
 """Blender's VR session in a built scene: start and stop, landmarks, controllers, comfort and frame time."""
 
-from . import controllers, display, moves, panel, session, viewer_landmarks
+from . import controllers, display, moves, panel, session, teleport, viewer_landmarks
 
-classes = (*viewer_landmarks.classes, *session.classes, *moves.classes, *panel.classes)
+classes = (*viewer_landmarks.classes, *session.classes, *moves.classes, *teleport.classes, *panel.classes)
 
 
 def register() -> None:

@@ -2,7 +2,7 @@
 
 | control | right hand | left hand |
 |---|---|---|
-| trigger | play or pause | teleport to the point that the controller points at |
+| trigger | play or pause | teleport to the ground that the controller points at |
 | grip | next landmark | previous landmark |
 | thumbstick, left and right | move time | turn in steps |
 | thumbstick, forwards and back | | fly |
@@ -58,7 +58,7 @@ class Action(NamedTuple):
 
 ACTIONS = {
     "play": Action(_RIGHT, "firetwin.vr_play", "PRESS", _TRIGGER),
-    "teleport": Action(_LEFT, "wm.xr_navigation_teleport", "MODAL", _TRIGGER),
+    "teleport": Action(_LEFT, "firetwin.vr_teleport", "MODAL", _TRIGGER),
     "next": Action(_RIGHT, "firetwin.vr_landmark", "PRESS", _GRIP, options={"step": 1}),
     "previous": Action(_LEFT, "firetwin.vr_landmark", "PRESS", _GRIP, options={"step": -1}),
     "later": Action(_RIGHT, "firetwin.vr_time", "MODAL", _ACROSS, "POSITIVE", {"direction": 1}),

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-import statistics
+import math
 import time
-from collections import deque
 from collections.abc import Callable
 
 import bpy
+from mathutils import Vector
 
+from .. import frame_clock, working
+from ..frame_clock import FrameClock
+
+_BLUE = (0.4, 0.6, 0.9, 1.0)
+_RING = 0.03  # radius / distance of the mark at the end of a ray
 _FADE = 0.3  # s of a fade from black
 _TICK = 0.5  # s between looks at the session
-_RATE = 72.0  # frames/s that standalone headsets ask for
 _VIEWS = 2  # views of a frame
 
-_times: deque[float] = deque(maxlen=60)  # s, begin of each frame
+_clock = FrameClock()
 
 
 class _Drawing:
@@ -23,13 +27,16 @@ class _Drawing:
     handler: object = None
     ended: Callable[[], None] | None = None
     views = 0
-    cut = -1.0  # s, time of the last cut
+    is_cut = False  # the next frame is the first one after a cut
+    cut = 0.0  # s, time of this frame
+    black = 0.0  # opacity of black in this frame
+    ray: tuple[Vector, Vector] | None = None  # from a controller to the ground
 
 
 def start(ended: Callable[[], None]) -> None:
     """Draw in the session's views until it ends, then call `ended`."""
     stop()
-    _times.clear()
+    _clock.clear()
     _Drawing.ended = ended
     _Drawing.handler = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "XR", "POST_VIEW")
     bpy.app.timers.register(_watch, first_interval=_TICK, persistent=True)
@@ -42,36 +49,36 @@ def stop() -> None:
     if bpy.app.timers.is_registered(_watch):
         bpy.app.timers.unregister(_watch)
     _Drawing.handler, _Drawing.ended = None, None
-    _Drawing.views, _Drawing.cut = 0, -1.0
+    _Drawing.views, _Drawing.is_cut, _Drawing.black = 0, False, 0.0
+    _Drawing.ray = None
 
 
 def fade() -> None:
-    """Begin a fade from black."""
-    _Drawing.cut = time.monotonic()
+    """Begin a fade from black with the next frame, which is black even if it takes long to draw."""
+    _Drawing.is_cut = True
+
+
+def show_ray(ray: tuple[Vector, Vector] | None) -> None:
+    """Show a ray from a controller to a point on the ground; None: show it no longer."""
+    _Drawing.ray = ray
 
 
 def frame_time() -> float | None:
     """Return the median time between frames of the session, s; None before the tenth frame."""
-    steps = [after - before for before, after in zip(_times, list(_times)[1:], strict=False)]
-    return statistics.median(steps) if len(steps) >= 10 else None
+    return _clock.median()
 
 
 def describe(seconds: float | None) -> tuple[str, bool]:
     """Return a line about the frame time and whether it is too long for a headset."""
     if seconds is None:
         return "Frame time: not known yet", False
-    words = f"Frame time: {1000.0 * seconds:.1f} ms; {_RATE:.0f} Hz needs {1000.0 / _RATE:.1f}"
-    return words, seconds > 1.05 / _RATE
+    return f"Frame time: {frame_clock.describe(seconds)}", frame_clock.is_slow(seconds)
 
 
 def _watch() -> float | None:
     """Redraw the panel with the frame time; at the end of the session stop drawing."""
-    context = bpy.context
     if bpy.types.XrSessionState.is_running(bpy.context):
-        for window in context.window_manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
+        working.redraw()
         return _TICK
     ended = _Drawing.ended
     stop()
@@ -82,12 +89,32 @@ def _watch() -> float | None:
 
 def _draw() -> None:
     """Note the time of each frame, and draw the fade."""
-    _Drawing.views = (_Drawing.views + 1) % _VIEWS
-    if _Drawing.views == 1:
-        _times.append(time.monotonic())
-    part = (time.monotonic() - _Drawing.cut) / _FADE
-    if 0.0 <= part < 1.0:
-        _draw_black(1.0 - part)
+    if not _is_mirror():
+        _Drawing.views = (_Drawing.views + 1) % _VIEWS
+        if _Drawing.views == 1:
+            _begin_frame(time.monotonic())
+    if _Drawing.ray is not None:
+        _draw_ray(*_Drawing.ray)
+    if _Drawing.black > 0.0:
+        _draw_black(_Drawing.black)
+
+
+def _is_mirror() -> bool:
+    """Return whether a 3D view is drawn that mirrors the session."""
+    import gpu
+
+    region = bpy.context.region
+    return region is not None and (region.width, region.height) == tuple(gpu.state.viewport_get()[2:])
+
+
+def _begin_frame(now: float) -> None:
+    """Note a frame that begins at this time (s), and choose its opacity of black."""
+    _clock.note()
+    if _Drawing.is_cut:
+        _Drawing.is_cut, _Drawing.cut = False, now
+        _Drawing.black = 1.0
+    elif _Drawing.black > 0.0:
+        _Drawing.black = max(1.0 - (now - _Drawing.cut) / _FADE, 0.0)
 
 
 def _draw_black(alpha: float) -> None:
@@ -110,3 +137,23 @@ def _draw_black(alpha: float) -> None:
         batch.draw(shader)
     gpu.state.blend_set("NONE")
     gpu.state.depth_test_set(depth)
+
+
+def _draw_ray(start: Vector, end: Vector) -> None:
+    """Draw a line to a point, and a ring around it."""
+    from gpu_extras.batch import batch_for_shader
+
+    import gpu
+
+    radius = _RING * (end - start).length
+    turns = [math.tau * step / 32 for step in range(33)]
+    ring = [end + radius * Vector((math.cos(turn), math.sin(turn), 0.0)) for turn in turns]
+    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    gpu.state.blend_set("ALPHA")
+    for line in ([start, end], ring):
+        batch = batch_for_shader(shader, "LINE_STRIP", {"pos": line})
+        shader.uniform_float("color", _BLUE)
+        shader.uniform_float("lineWidth", 4.0)
+        shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+        batch.draw(shader)
+    gpu.state.blend_set("NONE")

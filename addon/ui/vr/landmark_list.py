@@ -7,6 +7,8 @@ from typing import NamedTuple
 import bpy
 from mathutils import Vector
 
+from ...blender import owned
+from ...scene.camera import ground_raycast
 from .. import go_to, landmarks, place_names
 from .viewer_landmarks import heading
 
@@ -41,6 +43,7 @@ def pose(scene: bpy.types.Scene, name: str) -> Pose | None:
     place = go_to.find_position(scene, name)
     if place is None:
         return None
+    place = _on_ground(scene, place)
     head, began = (landmarks.find(scene.firetwin, each) for each in (landmarks.HEAD, landmarks.IGNITION))
     way = Vector((0.0, 0.0, 0.0))
     if name == landmarks.HEAD and began is not None:
@@ -48,3 +51,10 @@ def pose(scene: bpy.types.Scene, name: str) -> Pose | None:
     elif head is not None:
         way = head - place
     return Pose(place + Vector((0.0, 0.0, EYE)), heading(way))
+
+
+def _on_ground(scene: bpy.types.Scene, place: Vector) -> Vector:
+    """Return a place on the ground that 3D views show, whose mesh differs from the run's by its error."""
+    stage = owned.find_stage(scene)
+    height = None if stage is None else ground_raycast.terrain_height(stage, place)
+    return place if height is None else Vector((place.x, place.y, height))

@@ -13,7 +13,8 @@ from . import landmark_list, session
 _SECONDS = 10.0  # s to run through the whole film with the thumbstick at its end
 
 
-def _is_in_session(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+def is_in_session(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Return whether a session shows a built scene; otherwise set the poll message."""
     if not session.is_running():
         cls.poll_message_set("Start VR first")
         return False
@@ -29,7 +30,7 @@ class FIRETWIN_OT_vr_play(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return _is_in_session(cls, context)
+        return is_in_session(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -49,7 +50,7 @@ class FIRETWIN_OT_vr_time(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return _is_in_session(cls, context)
+        return is_in_session(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         self._last, self._exact = time.monotonic(), float(context.scene.frame_current)
@@ -100,7 +101,7 @@ class FIRETWIN_OT_vr_landmark(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return _is_in_session(cls, context)
+        return is_in_session(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -130,7 +131,7 @@ class FIRETWIN_OT_vr_turn(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return _is_in_session(cls, context)
+        return is_in_session(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:

@@ -68,6 +68,7 @@ class FIRETWIN_PT_vr(SidebarPanel, bpy.types.Panel):
         fixed = layout.column()
         fixed.enabled = not running
         fixed.prop(panel, "vr_scale")
+        fixed.prop(panel, "vr_live")
         layout.prop(panel, "vr_turn")
         layout.prop(panel, "vr_fade")
         if running:

@@ -11,6 +11,7 @@ import bpy
 from mathutils import Vector
 
 from ...blender import viewport
+from ...scene.live import switch
 from .. import navigation, working
 from . import display, landmark_list
 
@@ -24,9 +25,11 @@ _CHANGED = (
     "clip_end",
     "show_floor",
 )
-_NEAR = 0.5  # m at life size; nearer, the depth buffer confuses distant surfaces
+_NEAR = {"LIFE": 0.5, "TABLE": 0.05}  # m; nearer, the depth buffer confuses distant surfaces
 
 _former: dict[str, Any] = {}
+_film_scenes: set[int] = set()
+"""Scenes, by `session_uid`, that showed the film scene before the session."""
 
 
 class VrProperties:
@@ -51,6 +54,12 @@ class VrProperties:
     vr_fade: bpy.props.BoolProperty(
         name="Fade on cuts", description="Fade from black after a cut to another landmark", default=True
     )
+    vr_live: bpy.props.BoolProperty(
+        name="Live scene",
+        description="Show the live scene in the headset, if there is one; afterwards the 3D views show "
+        "what they showed before",
+        default=True,
+    )
     vr_landmark: bpy.props.StringProperty(name="Landmark", description="Landmark at which the viewer starts")
 
 
@@ -67,7 +76,7 @@ def stand(context: bpy.types.Context, name: str) -> bool:
         return False
     settings = manager.xr_session_settings
     settings.base_pose_type = "CUSTOM"
-    settings.base_pose_location = _table_place(scene, found.place)
+    settings.base_pose_location = eyes(scene, found.place)
     settings.base_pose_angle = found.angle
     scene.firetwin.vr_landmark = name
     if manager.xr_session_state is not None and is_running():
@@ -77,8 +86,11 @@ def stand(context: bpy.types.Context, name: str) -> bool:
     return True
 
 
-def _table_place(scene: bpy.types.Scene, place: Vector) -> Vector:
-    """Return the place of the eyes: at a table top they are half a metre above the table."""
+def eyes(scene: bpy.types.Scene, place: Vector) -> Vector:
+    """Return the place of the eyes of a viewer who has them here at life size.
+
+    At a table top they are half a metre above the table.
+    """
     if scene.firetwin.vr_scale == "LIFE":
         return place
     raised = place.copy()
@@ -87,11 +99,15 @@ def _table_place(scene: bpy.types.Scene, place: Vector) -> Vector:
 
 
 def restore() -> None:
-    """Give the session settings their former values."""
+    """Give the session settings their former values, and show the film scene where it was shown."""
     settings = bpy.context.window_manager.xr_session_settings
     for name, value in _former.items():
         setattr(settings, name, value)
     _former.clear()
+    for scene in bpy.data.scenes:
+        if scene.session_uid in _film_scenes:
+            switch.show_live(scene, False)
+    _film_scenes.clear()
 
 
 def _keep(settings: bpy.types.XrSessionSettings) -> None:
@@ -101,14 +117,24 @@ def _keep(settings: bpy.types.XrSessionSettings) -> None:
         _former.setdefault(name, tuple(value) if name.endswith("location") else value)
 
 
+def _show_live(scene: bpy.types.Scene) -> None:
+    """Show the live scene, if there is one."""
+    if scene.firetwin.vr_live and switch.has_live(scene) and not switch.is_live(scene):
+        _film_scenes.add(scene.session_uid)
+        switch.show_live(scene, True)
+        scene.view_layers[0].update()  # the ground under the viewer is another one
+
+
 def prepare(context: bpy.types.Context) -> None:
-    """Set scale, clipping and landmark of the session."""
+    """Set scale, clipping and landmark of the session, and show the live scene."""
     scene, settings = context.scene, context.window_manager.xr_session_settings
     _keep(settings)
     scale = SCALES[scene.firetwin.vr_scale]
     settings.base_scale = scale
-    settings.clip_start, settings.clip_end = _NEAR * scale, viewport.FAR
+    # Blender clips in metres of the room.
+    settings.clip_start, settings.clip_end = _NEAR[scene.firetwin.vr_scale], viewport.FAR / scale
     settings.show_floor = False
+    _show_live(scene)
     names = landmark_list.names(scene)
     name = scene.firetwin.vr_landmark
     if names:
