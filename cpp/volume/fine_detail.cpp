@@ -23,12 +23,12 @@ constexpr float clear = 1.0e-3F;
 using Lines = std::array<SampleRow, 3>;
 
 FIRETWIN_CLONES("avx512f", "avx2")
-void add_ridges(const Lines& places, float scale, std::uint32_t seed, float share,
+void add_ridges(const Lines& places, float scale, std::uint32_t seed, const SampleRow& share,
                 SampleRow& noise) {
   for (std::size_t n = 0; n < noise.size(); ++n) {
     const float found =
         perlin_at(places[0][n] * scale, places[1][n] * scale, places[2][n] * scale, seed);
-    noise[n] += share * (mean_ridge - std::abs(found));
+    noise[n] += share[n] * (mean_ridge - std::abs(found));
   }
 }
 
@@ -86,8 +86,9 @@ FineDetail::FineDetail(const LayerCrossing& crossing, const Segment& segment, fl
   }
 }
 
-void FineDetail::at(const SampleRow& distances, float finest, SampleRow& noise) const {
+void FineDetail::at(const SampleRow& distances, const SampleRow& finest, SampleRow& noise) const {
   noise.fill(0.0F);
+  const float least = *std::min_element(finest.begin(), finest.end());
   for (std::size_t phase = 0; phase < NoiseFrame::phases; ++phase) {
     if (frame_->weights[phase] < 0.02F) {
       continue;
@@ -97,8 +98,11 @@ void FineDetail::at(const SampleRow& distances, float finest, SampleRow& noise) 
     std::copy_n(slope_.begin() + static_cast<std::ptrdiff_t>(3 * phase), 3, slope.begin());
     float size = frame_->size, share = ridge_height * frame_->share * frame_->weights[phase];
     std::uint32_t seed = frame_->seeds[phase] * 8U + first_seed;
-    for (int octave = 0; octave < max_octaves && size > finest; ++octave) {
-      const float shown = std::min((size / finest - 1.0F) / (whole - 1.0F), 1.0F);
+    for (int octave = 0; octave < max_octaves && size > least; ++octave) {
+      SampleRow shown;
+      for (std::size_t n = 0; n < shown.size(); ++n) {
+        shown[n] = share * std::clamp((size / finest[n] - 1.0F) / (whole - 1.0F), 0.0F, 1.0F);
+      }
       start = turned(start);
       slope = turned(slope);
       Lines places;
@@ -107,7 +111,7 @@ void FineDetail::at(const SampleRow& distances, float finest, SampleRow& noise) 
           places[axis][n] = start[axis] + slope[axis] * (distances[n] - from_);
         }
       }
-      add_ridges(places, 1.0F / size, seed, share * shown, noise);
+      add_ridges(places, 1.0F / size, seed, shown, noise);
       size *= finer;
       share *= NoiseFrame::roughness;
       seed += 0x10001U;

@@ -23,8 +23,8 @@ public:
   /// Returns whether there is an octave of at least `finest` m.
   bool shows(float finest) const { return frame_ != nullptr && frame_->size > finest; }
   /// Computes the noise, mean 0, in the unit of an outline's share. Octaves fade out towards the
-  /// wavelength `finest`, m.
-  void at(const SampleRow& distances, float finest, SampleRow& noise) const;
+  /// wavelength `finest` (m) of each sample.
+  void at(const SampleRow& distances, const SampleRow& finest, SampleRow& noise) const;
 
 private:
   const NoiseFrame* frame_ = nullptr;

@@ -137,9 +137,21 @@ struct ActiveLayers {
   std::array<const LayerCrossing*, most> crossing;
   std::array<const Segment*, most> segment;
   std::array<FineDetail, most> detail;
-  std::array<float, most> sharpness; ///< of outlines
   std::size_t count = 0;
-  float finest = no_limit; ///< m, wavelength of the finest noise
+  float pixel = 0.0F, pixel_slope = 0.0F; ///< m at the ray's entry, and per m; 0: no detail
+
+  /// Returns the wavelength of the finest noise at a distance, m.
+  float finest(float distance) const {
+    const float size = pixel + pixel_slope * distance;
+    return size > 0.0F ? finest_noise * size : no_limit;
+  }
+  /// Returns the sharpness of a layer's outlines at a distance.
+  float sharpness(std::size_t layer, float distance) const {
+    const float size = pixel + pixel_slope * distance;
+    return size > 0.0F
+               ? std::clamp(crossing[layer]->voxel / (outline_pixels * size), 1.0F, max_sharpness)
+               : 1.0F;
+  }
 };
 
 constexpr std::size_t row_size = SampleRow{}.size();
@@ -162,11 +174,11 @@ void sample_row(const ActiveLayers& active, std::size_t layer, const SampleRow& 
     noisy = noisy || values[n][0] > Bricks::min_extinction;
   }
   SampleRow noise{};
-  const float sharpness = active.sharpness[layer];
-  const float shown = std::min((sharpness - 1.0F) / outline_range, 1.0F);
-  const bool detailed = clear && active.detail[layer].shows(active.finest);
-  if (noisy && detailed) {
-    active.detail[layer].at(distances, active.finest, noise);
+  if (noisy && clear && active.detail[layer].shows(active.finest(distances[0]))) {
+    SampleRow finest;
+    std::transform(distances.begin(), distances.end(), finest.begin(),
+                   [&](float distance) { return active.finest(distance); });
+    active.detail[layer].at(distances, finest, noise);
   }
   for (std::size_t n = 0; n < count; ++n) {
     Lanes& v = values[n];
@@ -174,7 +186,9 @@ void sample_row(const ActiveLayers& active, std::size_t layer, const SampleRow& 
     if (v[0] <= Bricks::min_extinction) {
       continue;
     }
-    if (shown > 0.0F) {
+    const float sharpness = active.sharpness(layer, distances[n]);
+    if (sharpness > 1.0F) {
+      const float shown = std::min((sharpness - 1.0F) / outline_range, 1.0F);
       v[0] = Outline{v[5], v[6], v[7]}.extinction(v[0], noise[n], sharpness, shown);
     }
     out.extinction[n] = shading.density * v[0];
@@ -313,19 +327,17 @@ float Marcher::find_active_layers(float t) {
 
 /// Prepares the outlines and noise of the active layers; returns the length of steps, m.
 float Marcher::prepare(float t, float until) {
-  const double middle = entry_ + 0.5 * static_cast<double>(t + until);
-  const auto pixel = static_cast<float>(settings_.pixel[0] + settings_.pixel[1] * middle);
-  active_.finest = pixel > 0.0F ? finest_noise * pixel : no_limit;
+  active_.pixel = static_cast<float>(settings_.pixel[0] + settings_.pixel[1] * entry_);
+  active_.pixel_slope = static_cast<float>(settings_.pixel[1]);
+  const float finest = active_.finest(0.5F * (t + until));
   float length = no_limit;
   for (std::size_t k = 0; k < active_.count; ++k) {
     const float voxel = active_.crossing[k]->voxel;
     length = std::min(length, static_cast<float>(settings_.step) * voxel);
-    active_.sharpness[k] =
-        pixel > 0.0F ? std::clamp(voxel / (outline_pixels * pixel), 1.0F, max_sharpness) : 1.0F;
     const NoiseFrame* noise = active_.crossing[k]->noise;
-    if (noise != nullptr && noise->size > active_.finest) {
+    if (noise != nullptr && noise->size > active_.finest(t)) {
       active_.detail[k] = FineDetail(*active_.crossing[k], *active_.segment[k], t, until);
-      length = std::min(length, std::max(noise_step * active_.finest, shortest_step * voxel));
+      length = std::min(length, std::max(noise_step * finest, shortest_step * voxel));
     } else {
       active_.detail[k] = FineDetail();
     }

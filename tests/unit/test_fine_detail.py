@@ -78,3 +78,20 @@ def test_a_slanting_outline_is_straight_between_voxels():
     surface = along[np.argmax(found[..., 3].reshape(161, 401) < 0.5, axis=1)]
     stairs = surface - np.polyval(np.polyfit(across, surface, 1), across)
     assert stairs.std() < 0.03
+
+
+def test_smoke_across_the_faces_of_blocks_has_no_step():
+    """A level sheet of an outline looks the same everywhere, though its rays cross blocks at other places."""
+    count = 48
+    x = np.indices((count, count, 8), dtype=float)[0]
+    sheet = np.where(x == 20.0, 0.4, 0.0)
+    even = np.ones_like(sheet)
+    edge = np.full_like(sheet, 0.4)
+    smoke = volume.Bricks(0.05 * sheet, even, even, even, None, 20.0, (0.0, 0.0, 0.0), edge)
+    y = np.linspace(100.0, 420.0, 321)
+    origins = np.stack([np.full(y.shape, -200.0), y, np.full(y.shape, 70.0)], axis=1)
+    ways = np.broadcast_to(np.array([1.0, 0.5, 0.0]) / np.sqrt(1.25), origins.shape)
+    ends = np.full((len(y), 1), 1e9)
+    clear = volume.march([smoke], origins, ways, ends, LIGHT, step=0.05, pixel=(0.0, 0.01))[:, 0, 3]
+    assert 0.2 < clear.mean() < 0.98
+    assert np.ptp(clear) < 0.01 * (1.0 - clear.mean())
