@@ -78,7 +78,7 @@ def write(folder: Path, only: str, out: Path) -> Iterator[Path]:
 def _chosen(known: list[int], only: str) -> list[int]:
     """Choose samples by a list, or evenly spaced ones without a list."""
     if not only.strip():
-        return known[:: -(-len(known) // MOST)]
+        return [known[step] for step in np.linspace(0, len(known) - 1, min(MOST, len(known))).astype(int)]
     try:
         wanted = FrameList(only).frames(known[-1])
     except ValueError:
