@@ -124,10 +124,11 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     fire = _flame_light(surfaces)
     solid = surfaces.colour - fire
     behind = solid * (share * near + (1.0 - share) * far)
-    edge = np.abs(near - far)[..., 0] > _EDGE
+    smoky = marched[..., 7] if marched.shape[-1] > 7 else marched[..., 3]
+    edge = np.abs(smoky[:, :, 0] - smoky[:, :, 1]) > _EDGE
     inner = _without_edges(solid, distances[..., 0], edge)
-    # At an edge the near surface takes the colour of its neighbours, because a denoiser mixes it with distant
-    # light, such as fire behind smoke.
+    # At an edge in smoke the near surface takes the colour of its neighbours, because a denoiser mixes it with
+    # distant light, such as fire behind smoke. Flames that are marched are not in that colour.
     split = share * inner * (near - far) + solid * far
     behind = np.where(edge[..., None], split, behind)
     gaps = (1.0 - share) * (smoke[:, :, 1] - smoke[:, :, 0])
@@ -264,13 +265,15 @@ def _coverage(surfaces: Surfaces, distances: Array) -> Array:
     apart = near - far
     share = np.clip((surfaces.nearness - far) / np.where(apart > 0.0, apart, 1.0), 0.0, 1.0)
     # Before the sky only the pixel's own rays count: its colour has the sky's in the same share.
-    sure = np.where(distances[..., 1] < SKY, surfaces.rays / (surfaces.rays + _SURE), 1.0)
+    own = surfaces.rays / (surfaces.rays + _SURE)
+    sure = np.where(distances[..., 1] < SKY, own, 1.0)
     share = sure * share + (1.0 - sure) * _near_share(surfaces.distance, distances)
     # Materials of an artist do not write distance: only the depth of the centre ray is known.
     unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
     share = np.where(unknown, surfaces.distance <= distances[..., 0] * (1.0 + _SAME_DEPTH), share)
     share = np.where(apart > 1.0e-3 * near, share, 1.0)
-    return np.where(_hides_flames(surfaces, distances[..., 0]) & ~unknown, surfaces.before, share)
+    before = own * surfaces.before + (1.0 - own) * blur(surfaces.before[..., None])[..., 0]
+    return np.where(_hides_flames(surfaces, distances[..., 0]) & ~unknown, before, share)
 
 
 def _hides_flames(surfaces: Surfaces, near: Array) -> NDArray[np.bool_]:

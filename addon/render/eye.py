@@ -94,7 +94,7 @@ class Eye:
         """Compute the radiance (h, w, 3) of surfaces, smoke, flames and `text`, which was rendered alone."""
         rendered = self._surfaces()
         at = composite.taps(rendered)
-        marched = self._march_taps(at, self.parts)
+        marched = self._march_taps(at, self.parts or bool(self.flames))
         self.clear = marched[..., 3].mean(axis=-1)
         white = 2.0**-self.stage.scene.view_settings.exposure
         composed = composite.compose(rendered, at, marched, white if self.flames else None)

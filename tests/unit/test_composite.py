@@ -192,6 +192,29 @@ def test_gaps_that_no_central_ray_meets_show_the_flames_behind(before):
     assert shown[3, 4] == pytest.approx((1.0 - before) * 8.0 * np.array([1, 0.4, 0]), rel=1e-4)
 
 
+def test_flames_behind_foliage_leave_its_colours_as_they_are():
+    """Only smoke mixes colours of edges: blocks of the darkest leaf of each neighbourhood would show."""
+    found, at, marched = flames_behind_foliage(1.0)
+    leaves = np.float32(0.2) + np.float32(0.1) * (np.indices(SIZE).sum(axis=0) % 2)[..., None] * np.ones(
+        3, np.float32
+    )
+    found = dataclasses.replace(found, colour=leaves, noisy=leaves)
+    opaque = np.where(at > 250.0, np.float32(0.1), np.float32(1.0))[..., None]
+    parts = [marched[..., :3], opaque, marched[..., :3], np.ones_like(opaque)]
+    shown = composite.compose(found, at, np.concatenate(parts, axis=-1).astype(np.float32), 1.0).picture
+    assert shown == pytest.approx(leaves, rel=1e-4)
+
+
+def test_few_rays_in_foliage_leave_no_stipple_before_flames():
+    """Gaps of half of each pixel, of which three rays find none to all."""
+    found, at, marched = flames_behind_foliage(0.5)
+    met = np.random.default_rng(5).binomial(3, 0.5, SIZE) / np.float32(3.0)
+    rough = composite.compose(dataclasses.replace(found, before=met), at, marched).picture
+    few = composite.compose(dataclasses.replace(found, before=met, rays=3), at, marched).picture
+    assert few.mean() == pytest.approx(rough.mean(), rel=0.1)
+    assert few[..., 0].std() < 0.6 * rough[..., 0].std()
+
+
 def test_small_gaps_show_flames_less_bright_than_open_flames():
     light = [
         composite.compose(*flames_behind_foliage(part), 1.0).picture[3, 4, 0] for part in (0.0, 0.5, 0.9)
