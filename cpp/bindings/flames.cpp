@@ -51,7 +51,7 @@ std::shared_ptr<FlameVolume> make_flames(const std::vector<SquareArrays>& square
 
 Array<float> sample(const FlameVolume& flames, const py::object& points, double fine) {
   const auto places = to_array<double>(points, "points", {-1, 3});
-  auto found = zeros({places.shape(0), 2});
+  auto found = zeros({places.shape(0), static_cast<py::ssize_t>(volume::flame_values)});
   const std::span<float> out = writable(found);
   const py::gil_scoped_release release;
   volume::sample_flames(flames, view(places), static_cast<float>(fine), out);

@@ -18,9 +18,9 @@ constexpr int leaf_edge = static_cast<int>(leaf_side);
 static_assert(lane_count == leaf_side);
 constexpr float least_flame = 1.0e-3F; // 1/m, extinction below which a voxel is not active
 
-struct FlamePoints {
-  Lanes extinction, kelvin;
-};
+/// Quantities of flames at eight points, in the order of `sample_flames`: visible and infrared
+/// extinction, 1/m, and temperature, K.
+using FlamePoints = std::array<Lanes, flame_values>;
 
 /// Samples eight places close together, relative to the flames' origin; false if nothing burns.
 bool sample(const FlameVolume& flames, const std::array<Lanes, 3>& place, float fine,
@@ -36,8 +36,10 @@ bool sample(const FlameVolume& flames, const std::array<Lanes, 3>& place, float 
     const float part = samples.flame[lane] * flames.view().share(away);
     if (part > 0.0F) {
       burns = true;
-      found.extinction[lane] = light.extinction * flames.scale(samples.length[lane])[0] * part;
-      found.kelvin[lane] = static_cast<float>(light.coolest) + range * samples.heat[lane];
+      const auto [visible, infrared] = flames.scale(samples.length[lane]);
+      found[0][lane] = light.extinction * visible * part;
+      found[1][lane] = light.infrared * infrared * part;
+      found[2][lane] = static_cast<float>(light.coolest) + range * samples.heat[lane];
     }
   }
   return burns;
@@ -48,8 +50,8 @@ class FlameVoxels {
 public:
   FlameVoxels(const FlameVolume& flames, double voxel_size) : flames_(flames), voxel_(voxel_size) {}
 
-  /// Computes a leaf by its first voxel; returns whether something burns.
-  bool leaf(const Coord& first, LeafValues* extinction, LeafValues* kelvin) const {
+  /// Computes a quantity of a leaf by its first voxel; returns whether something burns.
+  bool leaf(const Coord& first, std::size_t quantity, LeafValues& values) const {
     bool burning = false;
     for (int x = 0; x < leaf_edge; ++x) {
       for (int y = 0; y < leaf_edge; ++y) {
@@ -66,13 +68,8 @@ public:
         burning = sample(flames_, place, static_cast<float>(voxel_), found) || burning;
         const auto start = static_cast<std::size_t>((x * leaf_edge + y) * leaf_edge);
         for (std::size_t lane = 0; lane < lane_count; ++lane) {
-          const bool burns = found.extinction[lane] > least_flame;
-          if (extinction != nullptr) {
-            (*extinction)[start + lane] = burns ? found.extinction[lane] : 0.0F;
-          }
-          if (kelvin != nullptr) {
-            (*kelvin)[start + lane] = burns ? found.kelvin[lane] : 0.0F;
-          }
+          const bool burns = found[0][lane] > least_flame;
+          values[start + lane] = burns ? found[quantity][lane] : 0.0F;
         }
       }
     }
@@ -90,7 +87,7 @@ public:
       LeafValues values;
       const Coord origin = first_voxel({east, north, up});
       LeafMask mask;
-      if (leaf(origin, &values, nullptr)) {
+      if (leaf(origin, 0, values)) {
         for (std::size_t voxel = 0; voxel < leaf_voxels; ++voxel) {
           if (values[voxel] > 0.0F) {
             mask.set(voxel);
@@ -168,8 +165,8 @@ Leaves burning_leaves(const FlameVolume& flames, const FlameVoxels& voxels, doub
 
 void sample_flames(const FlameVolume& flames, std::span<const double> points, float fine,
                    std::span<float> out) {
-  if (points.size() % 3 != 0 || out.size() * 3 != points.size() * 2) {
-    throw std::invalid_argument("points must be (n, 3), and the result (n, 2)");
+  if (points.size() % 3 != 0 || out.size() * 3 != points.size() * flame_values) {
+    throw std::invalid_argument("points and the result must be (n, 3)");
   }
   for (std::size_t n = 0; n < points.size() / 3; ++n) {
     std::array<Lanes, 3> place;
@@ -178,8 +175,9 @@ void sample_flames(const FlameVolume& flames, std::span<const double> points, fl
     }
     FlamePoints found;
     sample(flames, place, fine, found);
-    out[2 * n] = found.extinction[0];
-    out[2 * n + 1] = found.kelvin[0];
+    for (std::size_t k = 0; k < flame_values; ++k) {
+      out[flame_values * n + k] = found[k][0];
+    }
   }
 }
 
@@ -189,17 +187,19 @@ VdbSummary write_flames(const std::filesystem::path& path, const FlameVolume& fl
   const FlameVoxels voxels(flames, voxel_size);
   const Topology topology(flames.tiles().empty() ? Leaves{}
                                                  : burning_leaves(flames, voxels, voxel_size));
-  const auto grid = [&](const char* name, const char* units, bool extinction) {
+  const auto grid = [&](const char* name, const char* units, std::size_t quantity) {
     return FogGrid{
         .name = name,
         .units = units,
         .voxel_size = voxel_size,
         .topology = topology,
-        .fill = [&voxels, extinction](const Coord& first, std::size_t, LeafValues& values) {
-          voxels.leaf(first, extinction ? &values : nullptr, extinction ? nullptr : &values);
+        .fill = [&voxels, quantity](const Coord& first, std::size_t, LeafValues& values) {
+          voxels.leaf(first, quantity, values);
         }};
   };
-  return write_vdb(path, {grid("flames", "1/m", true), grid("temperature", "K", false)}, metadata);
+  return write_vdb(
+      path, {grid("flames", "1/m", 0), grid("infrared", "1/m", 1), grid("temperature", "K", 2)},
+      metadata);
 }
 
 } // namespace firetwin::volume

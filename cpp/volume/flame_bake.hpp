@@ -4,20 +4,24 @@
 #include "volume/flames.hpp"
 #include "volume/vdb_summary.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 
 namespace firetwin::volume {
 
-/// Samples flames at points (n, 3), m: (n, 2) extinction in visible light, 1/m, and temperature, K,
-/// which is 0 without flames. Eddies below the size `fine`, m, are left out. Cooled soot over the
-/// flames is not included.
+constexpr std::size_t flame_values = 3; ///< of `sample_flames` at a point
+
+/// Samples flames at points (n, 3), m: (n, 3) extinction in visible light and in the infrared, 1/m,
+/// and temperature, K, which is 0 without flames. Eddies below the size `fine`, m, are left out.
+/// Cooled soot over the flames is not included.
 /// @throws std::invalid_argument
 void sample_flames(const FlameVolume& flames, std::span<const double> points, float fine,
                    std::span<float> out);
 
-/// Writes flames up to the distance at which they fade out as two grids of a VDB file:
+/// Writes flames up to the distance at which they fade out as grids of a VDB file:
 /// - `flames`: extinction in visible light, 1/m, as `march` draws them;
+/// - `infrared`: extinction in the infrared, 1/m, as `march_infrared` draws them;
 /// - `temperature`: K.
 ///
 /// Values are computed on demand, leaf by leaf. Memory is needed for 76 bytes per leaf of 8^3

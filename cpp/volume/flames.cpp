@@ -131,7 +131,7 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
 void FlameRay::fill(float from, float step, FlameSlab& slab) const {
   const FlameLight& light = flames_.light();
   const FlameView& view = flames_.view();
-  slab = {from, from + step * static_cast<float>(lane_count), {}, 1.0F, 0.0F, 1.0F};
+  slab = {from, from + step * static_cast<float>(lane_count), {}, 1.0F, 0.0F, 1.0F, 0.0F};
   Lanes away;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     away[lane] = from + step * (static_cast<float>(lane) + 0.5F);
@@ -149,6 +149,7 @@ void FlameRay::fill(float from, float step, FlameSlab& slab) const {
     if (all <= thin_flame) {
       continue;
     }
+    slab.share += burning > thin_flame ? 1.0F / static_cast<float>(lane_count) : 0.0F;
     const float kept = std::exp(-all * step);
     const float share = slab.transmittance * (1.0F - kept) / all;
     const float at = std::min(found.heat[lane] * last, last - 1.0e-3F);

@@ -63,6 +63,7 @@ struct FlameSlab {
   std::array<float, 3> radiance; ///< that leaves towards the eye
   float transmittance;
   float infrared, infrared_transmittance; ///< if a table of radiance is given
+  float share;                            ///< of the steps that are in flames
 };
 
 /// Black-body radiance in a band at evenly spaced temperatures.

@@ -367,19 +367,21 @@ void Marcher::add(const FlameSlab& slab, const HazeState& haze) {
   }
 }
 
-/// Marches smoke and flames between t and `until`; smoke is cut at the middle of each slab of
-/// flames.
+/// Marches smoke and flames between t and `until`. Each slab of flames is at its middle, and the
+/// part of it that burns has no smoke: soot there glows, and is in the extinction of the flames.
 void Marcher::pass(float t, float until, const Haze& haze) {
   FlameSlab slab;
   const auto end = static_cast<float>(entry_ + static_cast<double>(until));
   while (burning_ && !is_opaque() && burning_->next(end, slab)) {
     const double middle = 0.5 * static_cast<double>(slab.from + slab.to);
-    const float here = std::clamp(static_cast<float>(middle - entry_), t, until);
-    if (active_.count > 0 && here > t) {
-      step(t, here, haze);
+    const auto here = static_cast<float>(middle - entry_);
+    const float half = 0.5F * slab.share * (slab.to - slab.from);
+    const float before = std::clamp(here - half, t, until);
+    if (active_.count > 0 && before > t) {
+      step(t, before, haze);
     }
     add(slab, haze.at(middle));
-    t = here;
+    t = std::clamp(here + half, before, until);
   }
   if (active_.count > 0 && until > t) {
     step(t, until, haze);

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from firetwin.scene.fire import flame_volume
 from firetwin_core import volume
+from planck import EMPTY, EVERY, PLANCK
 from plumes import read
 
 VOXEL = 0.5
@@ -39,14 +40,15 @@ def flames(fade=(1e5, 2e5), origin=(1000.0, -2000.0, 300.0), heights=6.0):
 
 @pytest.fixture
 def written(tmp_path):
-    """Flames, the summary of their file, and indices (n, 3) and values (n, 2) of its voxels."""
+    """Flames, the summary of their file, and indices (n, 3) and values (n, 3) of its voxels."""
     burning = flames()
     summary = volume.write_flames(tmp_path / "flames.vdb", burning, VOXEL)
     grids = read(tmp_path / "flames.vdb")
-    (extinction, low), (kelvin, low_too) = grids["flames"], grids["temperature"]
-    assert np.array_equal(low, low_too)
+    extinction, low = grids["flames"]
+    assert all(np.array_equal(low, grids[name][1]) for name in ("infrared", "temperature"))
     lit = np.argwhere(extinction > 0.0)
-    return burning, summary, lit + low, np.stack([extinction[tuple(lit.T)], kelvin[tuple(lit.T)]], axis=-1)
+    values = [grids[name][0][tuple(lit.T)] for name in ("flames", "infrared", "temperature")]
+    return burning, summary, lit + low, np.stack(values, axis=-1)
 
 
 def test_voxels_hold_the_field_at_their_centres(written):
@@ -57,7 +59,28 @@ def test_voxels_hold_the_field_at_their_centres(written):
     alike = np.isclose(values, found, rtol=2.0 * HALF, atol=1e-3).all(axis=1)
     assert alike.mean() > 0.95
     assert np.abs(values - found)[:, 0].mean() < 0.01 * found[:, 0].mean()
-    assert 900.0 <= values[:, 1].min() < values[:, 1].max() <= 1400.0
+    assert 900.0 <= values[:, 2].min() < values[:, 2].max() <= 1400.0
+
+
+@pytest.mark.parametrize("height", [1.8, 6.0, 18.0])
+def test_voxels_radiate_the_power_of_the_field(tmp_path, height):
+    """Radiance of all wavelengths along parallel rays through the voxels, against the march."""
+    burning, voxel = flames(heights=height), height / 36.0
+    volume.write_flames(tmp_path / "flames.vdb", burning, voxel)
+    grids = read(tmp_path / "flames.vdb")
+    (dim, low), (kelvin, _) = grids["infrared"], grids["temperature"]
+    kept = np.exp(-np.asarray(dim, np.float64) * voxel)
+    before = np.cumprod(np.concatenate([np.ones_like(kept[:, :1]), kept[:, :-1]], axis=1), axis=1)
+    power = 5.670374e-8 / np.pi * np.asarray(kelvin, np.float64) ** 4
+    stored = (before * (1.0 - kept) * power).sum()
+    east, up = np.meshgrid(*((low[k] + np.arange(dim.shape[k])) * voxel for k in (0, 2)), indexing="ij")
+    origins = np.stack([east, np.full_like(east, low[1] * voxel - 5.0), up], axis=-1).reshape(-1, 3)
+    ahead, far = np.tile((0.0, 1.0, 0.0), (len(origins), 1)), dim.shape[1] * voxel + 10.0
+    ends = np.full(len(origins), far)
+    marched = volume.march_infrared(
+        [], origins, ahead, ends, radiance=EVERY, flames=burning, **PLANCK, **EMPTY
+    )
+    assert stored == pytest.approx(float(marched[:, 0].sum()), rel=0.1)
 
 
 def test_no_flame_is_left_out(written):

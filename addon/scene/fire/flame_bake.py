@@ -1,8 +1,8 @@
 """Flames near the first camera as OpenVDB files, for Blender's own render (F12) and other programs.
 
-The files hold the field that the integrated renderer marches (`flame_volume`), as the grids `flames`
-(extinction, 1/m) and `temperature` (K). They are ``<cache>/<key>/flames_000001.vdb``; the key is a hash of
-all inputs, so that a repeated build writes nothing.
+The files hold the field that the integrated renderer marches (`flame_volume`), as the grids `flames` and
+`infrared` (extinction in visible light and in the infrared, 1/m) and `temperature` (K). They are
+``<cache>/<key>/flames_000001.vdb``; the key is a hash of all inputs, so that a repeated build writes nothing.
 """
 
 from __future__ import annotations
@@ -28,8 +28,7 @@ from ...smoke import cache
 from .. import flame_field, infrared
 from . import flame_volume, flames
 
-# infrared extinction over visible, between flame lengths of 1 and 20 m (see flame_volume.SCALES)
-_INFRARED = 0.4
+_GRIDS = "flames", "infrared", "temperature"
 _THIN = 1.0e-3  # 1/m, extinction below which Cycles skips a voxel
 
 
@@ -86,7 +85,7 @@ def write_frame(path: Path, field: volume.FlameVolume | None, voxel: float) -> v
     """Write the flames of a frame on voxels of an edge length (m); None: no flames."""
     if field is None:
         empty = np.zeros((1, 1, 1), np.float32)
-        return volume.write(path, {"flames": empty, "temperature": empty}, voxel)
+        return volume.write(path, dict.fromkeys(_GRIDS, empty), voxel)
     return volume.write_flames(path, field, voxel)
 
 
@@ -122,7 +121,7 @@ def build_material(shot: Shot, stage: Stage) -> bpy.types.Material:
     black = {"Color": (0.0, 0.0, 0.0)}
     absorbed = tree.output("ShaderNodeVolumeAbsorption", {**black, "Density": density})
     shader = tree.add_shader(absorbed, visible)
-    dim = density * _INFRARED
+    dim = tree.attribute("infrared") * thick
     radiance = infrared.surface_radiance(tree, shot, stage, kelvin)
     absorbed = tree.output("ShaderNodeVolumeAbsorption", {**black, "Density": dim})
     warm = tree.add_shader(absorbed, tree.emission((1.0, 1.0, 1.0), radiance * dim))

@@ -616,10 +616,10 @@ class FlameVolume:
         """
 
     def sample(self, points: ArrayLike, fine: float = 0.0) -> NDArray[np.float32]:
-        """Return visible extinction (1/m) and temperature (K, 0 without flames) at points (n, 3): (n, 2).
+        """Return extinction (1/m), visible and infrared, and temperature (K) at points (n, 3): (n, 3).
 
-        Eddies smaller than `fine` (m) are left out. Flames fade out with the distance from the origin.
-        Cooled soot over the flames is not included.
+        All are 0 without flames. Eddies smaller than `fine` (m) are left out. Flames fade out with the
+        distance from the origin. Cooled soot over the flames is not included.
         """
 
 def write_flames(
@@ -629,7 +629,7 @@ def write_flames(
     *,
     metadata: Mapping[str, str] | None = None,
 ) -> VdbSummary:
-    """Write flames as an OpenVDB file with grids `flames` (visible extinction, 1/m) and `temperature` (K).
+    """Write flames as an OpenVDB file: `flames` and `infrared` (extinction, 1/m), and `temperature` (K).
 
     The voxels have the values of `FlameVolume.sample` at their centres, in half precision, up to the distance
     at which the flames fade out. Memory: 76 bytes per block of 8^3 voxels with flames.
