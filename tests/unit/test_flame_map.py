@@ -16,12 +16,12 @@ def camera(width, half=0.64, perspective=True):
     return Path(None, nowhere, np.eye(3)[None], nowhere, (half, half), perspective, width=width)
 
 
-def test_reach_is_where_long_flames_are_three_pixels_high(make_run):
+def test_reach_is_where_long_flames_are_two_pixels_high(make_run):
     shot = shot_of(make_run, 20.0, 2.0, canopy=1.0)
     length = flame_size.flame_length(constants.HEAT_OF_COMBUSTION / 1000.0 * 3.0 * PACE, "thomas")
     assert flame_map.typical_length(shot) == pytest.approx(length, rel=0.02)
     found = flame_map.reach(shot, camera(640))
-    assert found == pytest.approx(length / (3.0 * 2.0 * 0.64 / 640), rel=0.02)
+    assert found == pytest.approx(length / (2.0 * 2.0 * 0.64 / 640), rel=0.02)
     assert flame_map.reach(shot, camera(1920)) == pytest.approx(min(3.0 * found, 12_000.0))
     assert flame_map.reach(shot, camera(1920, perspective=False)) == 0.0
 

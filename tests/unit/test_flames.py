@@ -5,21 +5,14 @@ import itertools
 import numpy as np
 import pytest
 from firetwin.scene.fire import flame_volume
+from firetwin.scene.fire import flames as points
+from firetwin.scene.forest.stand import Stand
 from firetwin_core import sensor, volume
 from flame_field import flames
 from march_light import NO_LIGHT
+from planck import EMPTY, EVERY, KELVINS, PLANCK
+from straight_front import shot_of
 
-PLANCK = dict(coldest=180.0, kelvin_step=2.0)
-KELVINS = np.arange(180.0, 1900.0, 2.0)
-EVERY = 5.670374e-8 * KELVINS**4 / np.pi  # W m-2 sr-1, of all wavelengths
-EMPTY = dict(
-    kelvin=np.full((1, 1), 300.0),
-    elevation=np.zeros((1, 1)),
-    corner=(0.0, 0.0),
-    spacing=(1.0, 1.0),
-    lapse=0.0,
-    absorption=0.0,
-)
 LIGHT = volume.Illumination(**NO_LIGHT)
 
 
@@ -214,6 +207,19 @@ def test_surfaces_cut_flames_and_smoke_dims_them():
     assert both[1, :3] == pytest.approx(np.exp(-0.05 * 32.0) * alone[1, :3], rel=0.02)
 
 
+def test_smoke_begins_outside_of_flames():
+    """A flame's own soot glows: smoke in the same place dims only what is between its tongues."""
+    origins, directions = np.array([[0.0, -60.0, 2.0]]), np.array([[0.0, 1.0, 0.0]])
+    burning, ends = flames([front(18.0, 14.0)], extinction=1e-3), [[120.0]]
+    alone = volume.march([], origins, directions, ends, LIGHT, flames=burning, parts=True)[0, 0]
+    fields = dict.fromkeys(("fresh", "sun", "sky", "glow"), np.zeros((9, 9, 9)))
+    smoke = volume.Bricks(np.full((9, 9, 9), 0.05), **fields, voxel_size=4.0, origin=(-16.0, -16.0, -16.0))
+    both = volume.march([smoke], origins, directions, ends, LIGHT, 0.5, 1e-7, burning, parts=True)[0, 0]
+    clear = -np.log(both[7]) / 0.05  # m of smoke that are left of 32
+    assert 32.0 - 14.0 < clear < 32.0 - 7.0
+    assert both[4] < alone[4]
+
+
 def test_frames_repeat_bit_for_bit_and_move_little_in_a_moment():
     origins, directions, _, _ = look(5.0)
     ends = np.full((len(origins), 1), 40.0)
@@ -277,3 +283,42 @@ def test_the_light_of_flames_is_apart_from_smoke():
     assert np.array_equal(found[:, 4:7], found[:, :3])
     assert np.all(found[:, 7] == 1.0)
     assert found[:, 3].min() < 1.0
+
+
+def wood(shot, width=1.0):
+    """Stand of a tree of 20 m every 4 m."""
+    line = np.arange(-200.0, 200.0, 4.0)
+    place = np.stack([*np.meshgrid(line, line), np.zeros((len(line), len(line)))], axis=-1).reshape(-1, 3)
+    count = len(place)
+    key = np.stack([np.arange(count), np.full(count, 7)], axis=-1)
+    every, zeros = np.full(count, 20.0), np.zeros(count)
+    return Stand(place, every, np.full(count, width), zeros.astype(np.float32), key[:, 0], key, zeros, 1000.0)
+
+
+def test_crowns_torch_in_groups_and_as_wide_as_their_trees(make_run):
+    shot = shot_of(make_run, 20.0, 2.0, canopy=1.0)
+    torches = points.torching_crowns(shot, wood(shot))
+    rows = np.zeros((100, 100), bool)
+    rows[*np.rint(torches.position[:, :2] / 4.0 + 50.0).astype(int).T] = True
+    share = rows.mean()
+    assert share == pytest.approx(0.8 * 0.5, abs=0.08)  # of dense canopies, by canopy fuel
+    beside = (rows[:, 1:] & rows[:, :-1]).sum() / rows[:, :-1].sum()
+    assert beside > 0.5 * (1.0 + share)  # single trees would burn beside a share of the others alone
+    wide = points.torching_crowns(shot, wood(shot, 2.5))
+    assert wide.width == pytest.approx(2.5 * torches.width)
+    time = float(np.median(torches.arrival_time)) + 15.0
+    slim, broad = (flame_volume.spindles(each, time, np.zeros(3)) for each in (torches, wide))
+    assert len(slim) > 20
+    assert broad[:, 5] == pytest.approx(2.5 * slim[:, 5])
+
+
+def test_distant_crowns_fade_into_the_front(make_run):
+    shot = shot_of(make_run, 20.0, 2.0, canopy=1.0)
+    torches = points.torching_crowns(shot, wood(shot))
+    time = float(np.median(torches.arrival_time)) + 15.0
+    tops = [
+        flame_volume.spindles(torches, time, np.array((0.0, -away, 0.0)))[:, 4].sum()
+        for away in (1500.0, 2250.0, 3000.0)
+    ]
+    assert tops[0] > tops[1] > 0.0
+    assert tops[2] == 0.0

@@ -20,6 +20,7 @@ from ...shot.cameras.path import Path
 from ...shot.fire import flame_clock, flame_map
 from ...shot.light import exposure, sky
 from ...shot.shot import Shot
+from ...shot.terrain import noise
 from .. import infrared
 from . import flames
 
@@ -42,8 +43,9 @@ EXTINCTION = 0.8  # 1/m, visible
 _SOOT = 0.012  # of it, in the cooled soot
 INFRARED = infrared.FLAME
 _ALBEDO = 0.3  # of fresh soot (assumed)
-_BASE, _RADIUS = 0.22, 0.16  # of burning crowns, in tree heights (assumed)
-_SPINDLES = 1200.0  # m; at a greater distance the front outshines single torching crowns
+_BASE = 0.22  # of burning crowns, in tree heights (assumed)
+_RADIUS = 0.36  # of burning crowns, over the width of their flames (assumed)
+_SPINDLES = (2000.0, 2500.0)  # m, distances between which single torching crowns give way to the front
 _GROWING = (0.15, 0.6)  # parts of a torching crown's time in which it flares up, and from which it declines
 
 Array = NDArray[np.float64]
@@ -127,11 +129,12 @@ def visible(core: float) -> Array:
 def spindles(torches: flames.Points, time: float, eye: Array) -> Array:
     """Return the crowns (n, 6) in flames near the camera at a time (s): spindles of a `FlameVolume`."""
     lit = torches.take(torches.lit(time))
-    near = lit.take(np.flatnonzero(np.linalg.norm(lit.position - eye, axis=-1) < _SPINDLES))
+    away = np.linalg.norm(lit.position - eye, axis=-1)
+    near, away = lit.take(np.flatnonzero(away < _SPINDLES[1])), away[away < _SPINDLES[1]]
     part = (time - near.arrival_time) / near.residence
     up, down = np.clip(part / _GROWING[0], 0.0, 1.0), np.clip((1.0 - part) / (1.0 - _GROWING[1]), 0.0, 1.0)
-    grown = np.minimum(up * (2.0 - up), down)
+    grown = np.minimum(up * (2.0 - up), down) * (1.0 - noise.smoothstep(*_SPINDLES, away))
     kept = grown > 0.1
     top = near.crown * _BASE + (near.length - near.crown * _BASE) * grown
-    rows = np.column_stack([near.position, _BASE * near.crown, top, _RADIUS * near.crown])
+    rows = np.column_stack([near.position, _BASE * near.crown, top, _RADIUS * near.width])
     return rows[kept]

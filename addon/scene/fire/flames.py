@@ -34,6 +34,8 @@ _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
 _LENGTHS = (0.3, 75.0)  # m
 _TORCH_SIGHT = 2500.0  # m
 _TORCHES = 0.8  # fraction of the burning crowns that torch in a dense canopy
+# slopes of the logit of a crown's chance by its clump's noise, and by its own (by eye)
+_CLUMPED, _SINGLE = 5.0, 1.5
 _AROUND = 250.0  # m around a cell that its flames and firebrands reach
 _CROWN = 0.07  # area of a torching crown over the square of its height (assumed: 0.3 heights wide)
 _LIFE = (0.0, 0.2, 0.6, 1.0), (0.25, 1.0, 1.0, 0.2)  # size of a flame by its age in residence times
@@ -216,8 +218,8 @@ def _flaming_heat(canopy: Array, surface: Array, residence: Array) -> Array:
 def torching_crowns(shot: Shot, grown: Stand) -> Points:
     """Create flames of torching crowns when the front reaches them: tall, thin and short-lived.
 
-    The fraction of burning crowns (`fire_effects`) that torch grows with canopy density. They flame for half
-    a minute to a minute, up to 1.3 to 1.5 times the tree's height (by eye).
+    The fraction of burning crowns (`fire_effects`) that torch grows with canopy density. They torch in the
+    clumps in which the front has its tallest flames. They flame for half a minute to a minute, up to 1.3 to 1.5 times the tree's height (by eye).
     """
     ground, (first, last) = shot.ground, shot.built_times[[0, -1]]
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
@@ -225,9 +227,10 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
     arrival = ground.arrival_at(row, column)
     canopy = bilinear(ground.fields.canopy_fuel, row, column)
     key = grown.key[near]
-    luck, size, late, seed = (
+    single, size, late, seed = (
         noise.uniform(key[:, 0], key[:, 1], shot.settings.seed + 400 + k) for k in range(4)
     )
+    luck = _luck(flame_map.clumping(shot, *grown.position[near, :2].T), single)
     lit = (luck < _TORCHES * canopy / (canopy + 1.0)) & (arrival <= last)
     lit &= fire_effects.of_trees(shot, row, column, grown.height[near], grown.key[near]).torched
     residence = 30.0 + 30.0 * size
@@ -243,13 +246,18 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
         residence[chosen],
         intensity,
         length,
-        0.45 * height,
+        0.45 * height * grown.width[near[chosen]],
         flame_tilt(float(np.hypot(*shot.wind)), 2.0 * length),
         flame_temperature(intensity),
         seed[chosen],
         constants.HEAT_OF_COMBUSTION * canopy[chosen] * _CROWN * height**2 / (residence[chosen] * _MEAN_LIFE),
         height,
     )
+
+
+def _luck(clumps: Array, single: Array) -> Array:
+    """Return numbers (n,), nearly uniform in 0..1, that are low in clumps (`flame_map.clumping`)."""
+    return 1.0 / (1.0 + np.exp(_CLUMPED * clumps + _SINGLE * (2.0 * single - 1.0)))
 
 
 def cell_flames(shot: Shot) -> Points:

@@ -19,7 +19,7 @@ from ..terrain.terrain import UNKNOWN
 from . import flame_size
 from .flame_depth import FrontFields
 
-_PIXELS = 3.0  # height in pixels of the typical long flames at the reach (by eye)
+_PIXELS = 2.0  # height in pixels of the typical long flames at the reach (by eye)
 FADE = (0.8, 1.2)  # distances over the reach between which the field fades out
 _LONG = 90.0  # percentile of the flame lengths of the shown fronts
 _BEFORE = 900.0  # s before the first frame from which flames are still seen
@@ -60,7 +60,7 @@ Array = NDArray[np.float64]
 def reach(shot: Any, path: Any) -> float:
     """Return the distance (m) up to which flames are drawn as a volume for a camera.
 
-    There the typical long flames of the shown fronts are 3 pixels high. The distance is at most
+    There the typical long flames of the shown fronts are 2 pixels high. The distance is at most
     `flame_size.SIGHT`, and 0 without flames along the front, or in an orthographic view.
 
     Parameters
@@ -207,7 +207,7 @@ def lengths(shot: Any, place: Array, row: Array, column: Array, time: float) -> 
     for index, (size, low, tall) in enumerate(_UNEVEN):
         wave = noise.fractal(east, north, size * scale, 1, seed + 550 + index)
         factor *= np.exp((low + (tall - low) * crowded) * wave)
-    clumps = noise.smoothstep(*_CLUMPS, noise.fractal(east, north, _CLUMP * scale, 2, seed + 570))
+    clumps = noise.smoothstep(*_CLUMPS, clumping(shot, east, north))
     factor *= 1.0 - crowded * (1.0 - _BETWEEN) * (1.0 - clumps)
     long = np.clip(even * np.minimum(factor, _TALLEST), 0.0, _LENGTHS[1]) * (fuel > _LEAST_FUEL)
     height = long * upright(long, carrying_wind(shot))
@@ -250,6 +250,12 @@ def gap_margin(east: Array, north: Array, length: Array, scale: float, seed: int
     broken = noise.fractal(east, north, _GAP * scale, 2, seed + 520)  # 0.4 deviate
     gaps = gap_fraction(length)
     return np.where(gaps > 0.0, 0.5 + 0.8 * broken - gaps, 1.0)
+
+
+def clumping(shot: Any, east: Array, north: Array) -> Array:
+    """Return noise (n,) at scene points, m: crowns burn first in clumps, where it is high."""
+    scale = max(shot.full.front_scale, 0.3)
+    return noise.fractal(east, north, _CLUMP * scale, 2, shot.full.settings.seed + 570)
 
 
 def upright(length: Array, wind: tuple[float, float]) -> Array:
