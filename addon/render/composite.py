@@ -127,8 +127,8 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     smoky = marched[..., 7] if marched.shape[-1] > 7 else marched[..., 3]
     edge = np.abs(smoky[:, :, 0] - smoky[:, :, 1]) > _EDGE
     inner = _without_edges(solid, distances[..., 0], edge)
-    # At an edge in smoke the near surface takes the colour of its neighbours, because a denoiser mixes it with
-    # distant light, such as fire behind smoke. Flames that are marched are not in that colour.
+    # At an edge in smoke the near surface takes the colour of its neighbours, because a denoiser mixes it
+    # with distant light, such as fire behind smoke. Flames that are marched are not in that colour.
     split = share * inner * (near - far) + solid * far
     behind = np.where(edge[..., None], split, behind)
     gaps = (1.0 - share) * (smoke[:, :, 1] - smoke[:, :, 0])

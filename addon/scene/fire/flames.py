@@ -219,7 +219,9 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
     """Create flames of torching crowns when the front reaches them: tall, thin and short-lived.
 
     The fraction of burning crowns (`fire_effects`) that torch grows with canopy density. They torch in the
-    clumps in which the front has its tallest flames. They flame for half a minute to a minute, up to 1.3 to 1.5 times the tree's height (by eye).
+    clumps in which the front has its tallest flames, for half a minute to a minute, up to 1.3 to 1.5 times
+    the tree's height (by eye). They are as wide as the tree: one of a distant, thinned stand burns for those
+    that it represents.
     """
     ground, (first, last) = shot.ground, shot.built_times[[0, -1]]
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
