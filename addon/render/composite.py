@@ -78,7 +78,7 @@ def taps(surfaces: Surfaces) -> Array:
     """Return sample distances of smoke (h, w, 3), m: near surface, far surface and flames."""
     near, far = _neighbourhood(surfaces.distance, np.minimum), _neighbourhood(surfaces.distance, np.maximum)
     # Gaps that no central ray meets show the flames too. A farther tap would see flames behind the ground.
-    far = np.where(far < surfaces.flame_distance, _BEHIND * surfaces.flame_distance, far)
+    far = np.where(_extended(surfaces), _BEHIND * surfaces.flame_distance, far)
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
 
 
@@ -125,7 +125,7 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     solid = surfaces.colour - fire
     behind = solid * (share * near + (1.0 - share) * far)
     smoky = marched[..., 7] if marched.shape[-1] > 7 else marched[..., 3]
-    edge = np.abs(smoky[:, :, 0] - smoky[:, :, 1]) > _EDGE
+    edge = (np.abs(smoky[:, :, 0] - smoky[:, :, 1]) > _EDGE) & ~_extended(surfaces)
     inner = _without_edges(solid, distances[..., 0], edge)
     # At an edge in smoke the near surface takes the colour of its neighbours, because a denoiser mixes it
     # with distant light, such as fire behind smoke. Flames that are marched are not in that colour.
@@ -279,6 +279,11 @@ def _coverage(surfaces: Surfaces, distances: Array) -> Array:
 def _hides_flames(surfaces: Surfaces, near: Array) -> NDArray[np.bool_]:
     """Return a mask (h, w) of pixels whose near surface is before the flames."""
     return near < surfaces.flame_distance
+
+
+def _extended(surfaces: Surfaces) -> NDArray[np.bool_]:
+    """Return a mask (h, w) of pixels in foliage before flames, of which no central ray goes through a gap."""
+    return _neighbourhood(surfaces.distance, np.maximum) < surfaces.flame_distance
 
 
 def _near_share(distance: Array, distances: Array) -> Array:

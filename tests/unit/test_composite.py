@@ -193,14 +193,14 @@ def test_gaps_that_no_central_ray_meets_show_the_flames_behind(before):
 
 
 def test_flames_behind_foliage_leave_its_colours_as_they_are():
-    """Only smoke mixes colours of edges: blocks of the darkest leaf of each neighbourhood would show."""
+    """Blocks of the darkest leaf of each neighbourhood would show if each pixel counted as an edge in smoke."""
     found, at, marched = flames_behind_foliage(1.0)
     leaves = np.float32(0.2) + np.float32(0.1) * (np.indices(SIZE).sum(axis=0) % 2)[..., None] * np.ones(
         3, np.float32
     )
     found = dataclasses.replace(found, colour=leaves, noisy=leaves)
     opaque = np.where(at > 250.0, np.float32(0.1), np.float32(1.0))[..., None]
-    parts = [marched[..., :3], opaque, marched[..., :3], np.ones_like(opaque)]
+    parts = [marched[..., :3], opaque, marched[..., :3], np.where(at > 250.0, 0.3, 1.0)[..., None]]
     shown = composite.compose(found, at, np.concatenate(parts, axis=-1).astype(np.float32), 1.0).picture
     assert shown == pytest.approx(leaves, rel=1e-4)
 
