@@ -193,7 +193,7 @@ def test_gaps_that_no_central_ray_meets_show_the_flames_behind(before):
 
 
 def test_flames_behind_foliage_leave_its_colours_as_they_are():
-    """Blocks of the darkest leaf of each neighbourhood would show if each pixel counted as an edge in smoke."""
+    """Blocks of the darkest leaf of each neighbourhood would show if pixels counted as edges in smoke."""
     found, at, marched = flames_behind_foliage(1.0)
     leaves = np.float32(0.2) + np.float32(0.1) * (np.indices(SIZE).sum(axis=0) % 2)[..., None] * np.ones(
         3, np.float32
