@@ -40,7 +40,7 @@ def space(**values):
 def drawn(scene):
     """Return the texts that the panel draws."""
     layout = MagicMock()
-    for name in ("column", "row"):
+    for name in ("column", "row", "split"):
         getattr(layout, name).return_value = layout
     context = SimpleNamespace(
         scene=scene,
@@ -93,7 +93,7 @@ def test_reasons_are_read_once_after_a_change(live, monkeypatch):
 @pytest.mark.parametrize(
     ("values", "word"),
     [
-        ({"shading": "SOLID"}, "shading Rendered"),
+        ({"shading": "SOLID"}, "shading Material Preview"),
         ({"local_view": object()}, "local view"),
         ({"clip_end": 1000.0}, "1.0 km"),
     ],

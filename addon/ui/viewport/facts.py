@@ -53,7 +53,7 @@ def reasons(scene: bpy.types.Scene) -> list[str]:
 def view_reasons(space: bpy.types.SpaceView3D) -> Iterator[str]:
     """Return why this view does not draw parts of the scene."""
     if space.shading.type in ("WIREFRAME", "SOLID"):
-        yield "Flames, smoke, sky and haze are not drawn: choose the shading Rendered"
+        yield "Light, sky and haze are not drawn: choose the shading Material Preview or Rendered"
     elif space.shading.type == "MATERIAL" and not space.shading.use_scene_world:
         yield "The sky is not drawn: choose the shading Rendered, or Scene World in its options"
     if space.local_view is not None:

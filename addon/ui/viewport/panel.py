@@ -98,19 +98,18 @@ def _draw_cost(layout: bpy.types.UILayout, known: facts.Facts) -> None:
     times = [f"{1000.0 * known.seconds[live]:.1f} ms" if live in known.seconds else "-" for live in shown]
     _draw_row(table, "Frame", times)
     if True in known.cost:
-        table.label(text=f"Budget of the live scene: {build.TRIANGLES:,} triangles", icon="INFO")
+        table.label(text=f"Budget: {build.TRIANGLES:,} triangles", icon="INFO")
     if any(frame_clock.is_slow(seconds) for seconds in known.seconds.values()):
-        needed = f"A headset of {frame_clock.HEADSET:.0f} Hz needs {1000.0 / frame_clock.HEADSET:.1f} ms"
+        needed = f"{frame_clock.HEADSET:.0f} Hz needs {1000.0 / frame_clock.HEADSET:.1f} ms"
         table.label(text=needed, icon="INFO")
 
 
 def _draw_row(table: bpy.types.UILayout, name: str, values: list[str]) -> None:
-    row = table.row(align=True)
+    row = table.split(factor=0.4)
     row.label(text=name)
+    cells = row.row(align=True)
     for value in values:
-        cell = row.row()
-        cell.alignment = "RIGHT"
-        cell.label(text=value)
+        cells.label(text=value)
 
 
 classes = (FIRETWIN_OT_viewport_measure, FIRETWIN_PT_viewport)
