@@ -3,11 +3,10 @@
 Visible camera: a Gaussian blur of the optics in linear light, shot noise of `full_well` electrons at white,
 read noise, and JPEG compression. Signal and noise are in linear light of the display (sRGB, IEC 61966-2-1),
 each channel is measured in each pixel, and the film's contrast is already in the signal: correlations by
-demosaicing and the response of one camera model are not simulated. The exposure rises in
-the dark: `_AMPLIFIED` of its stops are amplification, with fewer electrons at white and more read noise, and
-the others are a longer exposure. The noise model is additive and Gaussian,
-variance = signal / full_well + read_noise^2 (the linear model of EMVA Standard 1288, without the
-quantisation noise, which the 8-bit file has itself).
+demosaicing and the response of one camera model are not simulated. The exposure rises in the dark:
+`_AMPLIFIED` of its stops are amplification, with fewer electrons at white and more read noise, and the others
+are a longer exposure. The noise model is additive and Gaussian, variance = signal / full_well + read_noise^2
+(the linear model of EMVA Standard 1288, without the quantisation noise, which the 8-bit file has itself).
 
 Thermal camera: `firetwin_core.sensor.PlanckTable.detect`, with NETD at 300 K and saturation. A sample's noise
 depends only on the keys of its draw: it is equal on all machines and in any order.

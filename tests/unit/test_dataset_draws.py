@@ -158,10 +158,14 @@ def test_crowns_before_the_camera_or_its_target_reject_a_camera(drawer):
     assert scene.crowded(eye(45.0).position, level, (0.5, 0.4), 40.0) < 0.5
 
 
-def test_burned_ground_has_no_unburned_islands(drawer):
-    scene = drawer.scene("a")
-    row, column = scene.ground.indices(*scene.ground.geodetic(*scene.burned[:, :2].T))
-    assert (scene.ground.arrival_at(np.round(row), np.round(column)) < 1.0e8).all()
+def test_burned_ground_has_no_unburned_islands(plan):
+    scene = RunScene(plan.run("a"))
+    row, column = np.nonzero(scene.ground.burned >= 0.5)
+    north = row > np.median(row)
+    scene.ground.burned[row[north], column[north]] = 0.0
+    found, _ = scene.ground.indices(*scene.ground.geodetic(*scene.burned[:, :2].T))
+    assert len(found)
+    assert (found <= np.median(row) + 0.01).all()
 
 
 def test_a_camera_in_the_smoke_is_drawn_again(drawer, monkeypatch):
