@@ -11,13 +11,13 @@ from pathlib import Path
 
 from ..progress import count, duration, size
 
-_VISIT_SECONDS, _SAMPLE_SECONDS = 20.0, 25.0
-"""Processor seconds of a visit (scene and smoke) and of a sample of 640 x 480 pixels (`docs/datasets.md`)."""
+_VISIT_SECONDS, _SAMPLE_SECONDS = 14.0, 20.0
+"""Processor seconds of a visit (scene and smoke), and of a sample of 640 x 480 pixels: means of 200."""
 _LEAST = 5
 """Finished samples from which an estimate takes their cost."""
 _PIXELS = 640 * 480
-_SAMPLE_BYTES = 2.8e6
-"""Bytes of a sample of 640 x 480 pixels with all maps, by the mean of 8 samples of 240 x 180."""
+_SAMPLE_BYTES = 2.4e6
+"""Bytes of a sample of 640 x 480 pixels with all maps, by the mean of 200."""
 
 
 @dataclass(frozen=True)
