@@ -13,6 +13,7 @@ from hands import (
     FOLDER,
     MODULE,
     alone,
+    built,
     call,
     check,
     idle,
@@ -33,6 +34,8 @@ def shortcuts() -> Iterator[object]:
     """Set camera keys with Ctrl Alt K, with K during Walk, and with the user's own key."""
     yield from ready()
     keymap = sys.modules[f"{MODULE}.ui.keymap"]
+    for name in built():  # drawn slowly without a GPU
+        bpy.context.scene.objects[name].hide_set(True)
     call(bpy.ops.firetwin.view, whole=True)
     view().spaces.active.region_3d.view_perspective = "PERSP"
     bpy.context.scene.frame_set(2)
@@ -48,6 +51,8 @@ def shortcuts() -> Iterator[object]:
     check(3 not in key_frames(), "the key of the camera is deleted")
     yield from _walk("j", "53-walking-own-key")
     keymap.users_items()[0][1].type = "K"  # `item` may be outdated
+    for name in built():
+        bpy.context.scene.objects[name].hide_set(False)
 
 
 def _flying() -> set[str]:
