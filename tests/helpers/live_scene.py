@@ -11,7 +11,7 @@ from firetwin.shot.shot import Shot
 from made_once import made_once
 from small_scene import _settings, simplify_looks
 
-BUDGET = 6000
+BUDGET = 16_000
 __all__ = ["live_blend", "live_stage"]
 
 

@@ -9,7 +9,7 @@ import bpy
 from ...blender import node_updates, owned
 from ...progress import MessageCallback, Progress, no_message, silent
 from ...shot.shot import Shot
-from . import forest, ground, switch
+from . import flames, forest, ground, smoke, switch
 
 TRIANGLES = 1_200_000
 """Budget of triangles."""
@@ -36,15 +36,24 @@ def steps(
     """
     uid, budget = scene.session_uid, budget or TRIANGLES
     try:
+        yield "live smoke"
+        baked = smoke.bake(shot.full, owned.stage(owned.scene(uid)), progress, tell)
         yield "live ground"
-        stage = owned.stage(owned.scene(uid))
-        live = switch.empty(stage)
-        base = ground.build(shot, stage, live, round(_GROUND * budget), None)
+        live = switch.empty(owned.stage(owned.scene(uid)))
+        shadow = smoke.shade(baked) if baked else None
+        if baked:
+            sheets = smoke.build(owned.stage(owned.scene(uid)), live, baked)
+            budget -= 2 * sum(len(each.data.polygons) for each in sheets)
+        base = ground.build(shot, owned.stage(owned.scene(uid)), live, round(_GROUND * budget), shadow)
         spare = budget - len(base.data.polygons)
-        yield "live forest"
+        yield "live forest and flames"
         stage = owned.stage(owned.scene(uid))
         live = switch.collection(stage.scene)
-        forest.build(shot, stage, live, spare, None)
+        if live is not None:
+            grown = forest.grow(shot)
+            fire = flames.build(shot, stage, live, round(flames.SHARE * budget), grown)
+            spare -= 2 * len(fire.data.polygons) if fire else 0
+            forest.build(shot, stage, live, spare, shadow, grown)
     finally:
         node_updates.end_all()
 

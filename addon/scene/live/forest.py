@@ -1,8 +1,8 @@
 """Live forest: the film's trees as a few meshes, by tile, of near and far shapes.
 
-Vertex attributes are `leaf` (colour; alpha is 1 on leaves and 0 on wood), `fire` (arrival time in s, what the
-fire does, height in the tree 0..1), and `outward` (normal). What the fire does is the scorch height 0..1 of a
-tree that survives, and 2 for a crown that burns. The shader compares the arrival with the scene's time.
+Vertex attributes are `leaf` (colour; alpha is 1 on leaves and 0 on wood), `fire` (arrival time in s, effect,
+height in the tree 0..1), and `outward` (normal). The effect is the scorch height 0..1 of a tree that
+survives, and 2 for a crown that burns. The shader compares the arrival with the scene's time.
 """
 
 from __future__ import annotations
@@ -41,16 +41,15 @@ def build(
     collection: bpy.types.Collection,
     budget: int,
     shade: Shade | None,
-    grown: stand.Stand | None = None,
+    grown: stand.Stand | None,
 ) -> list[bpy.types.Object]:
     """Build "Firetwin Live Trees", of at most `budget` triangles; none where the film has no stand."""
-    if not shot.settings.forest.trees:
-        return []
-    grown = grown or stand.grow(shot)
-    if not len(grown.height):
+    if grown is None or not len(grown.height):
         return []
     away = viewers.distance(shot, grown.position)
     kept, near = choose(away, budget)
+    if not len(kept):
+        return []
     look = _material(shot, stage, shade)
     made = []
     for number, tile in enumerate(_tiles(grown.position[kept])):
@@ -60,9 +59,14 @@ def build(
     return made
 
 
+def grow(shot: Shot) -> stand.Stand | None:
+    """Return the film's trees; None if it has none."""
+    return stand.grow(shot) if shot.settings.forest.trees else None
+
+
 def choose(away: NDArray[np.float64], budget: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """Choose trees at distances (n,), m: indices of the nearest that fit, and which (n,) have near shapes."""
-    order = np.argsort(away, kind="stable")
+    order, budget = np.argsort(away, kind="stable"), max(budget, 0)
     kept = order[: budget // _FAR_COST]
     spare = budget - _FAR_COST * len(kept)
     near: NDArray[np.bool_] = np.zeros(len(away), bool)
@@ -119,7 +123,7 @@ def _mesh(
 
 
 def _fire(shot: Shot, grown: stand.Stand, chosen: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return the arrival time (s) and what the fire does (n, 2) of trees (n,)."""
+    """Return the arrival time (s) and the effect of the fire (n, 2) of trees (n,)."""
     row, column = shot.ground.under(grown.position[chosen])
     effects = fire_effects.of_trees(shot, row, column, grown.height[chosen], grown.key[chosen])
     arrival = np.minimum(shot.ground.arrival_at(row, column), NEVER)

@@ -12,7 +12,7 @@ _NEAREST = 20.0  # m
 
 
 def places(shot: Shot) -> NDArray[np.float64]:
-    """Return places (n, 3), m: of cameras near the ground, and of what they look at."""
+    """Return places (n, 3), m: of cameras near the ground, and of their targets."""
     found = [np.zeros((0, 3))]
     for path in shot.perspective_paths:
         frames = np.linspace(0, len(path.position) - 1, _MOMENTS).round().astype(int)
@@ -28,3 +28,10 @@ def distance(shot: Shot, positions: NDArray[np.floating]) -> NDArray[np.float64]
     for place in places(shot):
         np.minimum(nearest, np.linalg.norm(positions - place, axis=-1), out=nearest)
     return np.maximum(nearest, _NEAREST)
+
+
+def target(shot: Shot) -> NDArray[np.float64]:
+    """Return the place (3,), m, at which the cameras look on average; the middle of the fire without any."""
+    if shot.perspective_paths:
+        return np.mean([path.target.mean(axis=0) for path in shot.perspective_paths], axis=0)
+    return places(shot)[0]

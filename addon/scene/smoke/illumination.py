@@ -29,8 +29,13 @@ def material(stage: Stage) -> bpy.types.Material | None:
     return next((each.materials[0] for each in volumes if len(each.materials) and each.materials[0]), None)
 
 
-def visible_light(stage: Stage) -> volume.Illumination:
+def visible_light(stage: Stage, *, everywhere: bool = False) -> volume.Illumination:
     """Return the visible light in smoke, in the scene's current frame.
+
+    Parameters
+    ----------
+    everywhere
+        Scatter light equally in all directions, without haze, for smoke that is seen from everywhere.
 
     Raises
     ------
@@ -48,11 +53,13 @@ def visible_light(stage: Stage) -> volume.Illumination:
         sun=[part * _input_number(group, "Sunlight") for part in sun.outputs[0].default_value[:3]],
         sky=[part * _input_number(group, "Skylight") for part in around.outputs[0].default_value[:3]],
         sun_direction=[socket.default_value for socket in toward.inputs],
-        anisotropy=_input_number(group, "Anisotropy"),
+        anisotropy=0.0 if everywhere else _input_number(group, "Anisotropy"),
         multiple_scattering=sunlit.OFTENER,
         glow=glow,
         thin=sky.THIN,
-        **haze.illumination(stage, _input_number(group, "Haze"), _input_colour(group, "Haze Tint")),
+        **haze.illumination(
+            stage, 0.0 if everywhere else _input_number(group, "Haze"), _input_colour(group, "Haze Tint")
+        ),
     )
 
 

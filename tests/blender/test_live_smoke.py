@@ -1,0 +1,121 @@
+"""Live smoke: the optical depth of the smoke from each direction, in pictures that depend on time alone."""
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.blender import owned
+from firetwin.scene.live import smoke, smoke_grid
+
+EDGES = np.linspace(-400.0, 400.0, 17)
+
+
+@pytest.fixture
+def grid():
+    """Even slabs and cells of 50 m about the origin."""
+    return smoke_grid.Grid((EDGES,) * 3, (EDGES,) * 3)
+
+
+def slabs(opacity, light=0.5):
+    return smoke_grid.Slabs(np.full((*opacity.shape, 3), light, np.float32), opacity.astype(np.float32))
+
+
+@pytest.fixture
+def baked(grid):
+    """Smoke at two moments: two cells of one slab of each axis, thicker at the second moment."""
+    opacity = np.zeros((16, 16, 16))
+    opacity[8, 4:8, 4:8] = 0.5
+    pair = [slabs(opacity), slabs(opacity * 1.5)]
+    shadow = np.stack([np.ones((4, 4)), np.full((4, 4), 0.2)]).astype(np.float32)
+    low = np.array([-400.0, -400.0])
+    return smoke.Smoke(grid, np.array([100.0, 200.0]), [pair] * 3, shadow, low, -low)
+
+
+@pytest.mark.parametrize("direction", [(0, 0, 1), (1, 0, 0), (1, 1, 0), (1, 2, 3), (3, 1, -1)])
+def test_sheets_of_all_axes_have_the_depth_of_the_ray(stage, baked, direction):
+    """A ray of length s meets s |cos t| / d sheets of an axis; the shader raises their clearness."""
+    smoke.build(stage, stage.part("Live"), baked)
+    way = np.array(direction) / np.linalg.norm(direction)
+    k, s, d = 0.01, 300.0, 25.0
+    depths = [
+        s
+        * abs(way[axis])
+        / d
+        * k
+        * d
+        * exponent(bpy.data.node_groups[f"Firetwin Live Smoke {name} Shader"], way)
+        for axis, name in enumerate("XYZ")
+    ]
+    assert sum(depths) == pytest.approx(k * s, rel=1e-4)
+
+
+def exponent(group, incoming):
+    """Value of the power to which the material raises the clearness of a slab, for a direction of view."""
+    power = next(node for node in group.nodes if node.type == "MATH" and node.operation == "POWER")
+    return value(power.inputs[1], incoming)
+
+
+def value(socket, incoming):
+    """Value of a socket of Math nodes."""
+    if not socket.is_linked:
+        return socket.default_value
+    link = socket.links[0]
+    node = link.from_node
+    if node.type == "SEPXYZ":
+        return incoming["XYZ".index(link.from_socket.name)]
+    if node.type == "GROUP_INPUT":
+        return 1.0
+    first, second = (value(each, incoming) for each in node.inputs[:2])
+    return {
+        "ABSOLUTE": lambda: abs(first),
+        "ADD": lambda: first + second,
+        "MULTIPLY": lambda: first * second,
+        "DIVIDE": lambda: first / second,
+        "MAXIMUM": lambda: max(first, second),
+    }[node.operation]()
+
+
+def test_sheets_exist_only_where_smoke_ever_is(stage, baked):
+    made = smoke.build(stage, stage.part("Live"), baked)
+    assert [obj.name for obj in made] == [f"Firetwin Live Smoke {axis} 08" for axis in "XYZ"]
+    for obj in made:
+        assert len(obj.data.polygons) == 1
+        bounds = np.array([obj.matrix_basis @ v.co for v in obj.data.vertices])
+        axis = "XYZ".index(obj.name[-4])
+        np.testing.assert_allclose(np.sort(np.ptp(bounds, axis=0)), [0.0, 200.0, 200.0], atol=1e-3)
+        assert np.ptp(bounds[:, axis]) == pytest.approx(0.0, abs=1e-3)
+        assert bounds[0, axis] == pytest.approx(25.0)
+
+
+def test_a_sheet_reads_its_own_row_of_the_picture(stage, baked):
+    """Rows of a picture are sheets, columns are moments; opacity is in its alpha."""
+    (obj, *_) = smoke.build(stage, stage.part("Live"), baked)
+    sheet = np.empty(3 * len(obj.data.vertices), np.float32)
+    obj.data.attributes["sheet"].data.foreach_get("vector", sheet)
+    u, v = sheet.reshape(-1, 3)[:, :2].T
+    image = bpy.data.images["Firetwin Live Smoke X"]
+    assert tuple(image.size) == (2 * 16, 16 * 16)
+    alpha = np.empty(4 * image.size[0] * image.size[1], np.float32)
+    image.pixels.foreach_get(alpha)
+    alpha = alpha.reshape(16 * 16, 2 * 16, 4)[..., 3]
+    rows = slice(round(v.min() * 256), round(v.max() * 256))
+    for moment, expected in ((0, 0.5), (1, 0.75)):
+        columns = slice(round((u.min() + moment) * 16), round((u.max() + moment) * 16))
+        np.testing.assert_allclose(alpha[rows, columns], expected, atol=0.003)
+        alpha[rows, columns] = 0.0
+    assert alpha.max() == 0.0
+
+
+def test_the_shadow_has_a_column_for_each_moment(stage, baked):
+    made = smoke.shade(baked)
+    image = next(node.image for node in made.group.nodes if node.type == "TEX_IMAGE")
+    pixels = np.empty(4 * image.size[0] * image.size[1], np.float32)
+    image.pixels.foreach_get(pixels)
+    red = pixels.reshape(4, 8, 4)[..., 0]
+    np.testing.assert_allclose(red[:, :4], 1.0)
+    np.testing.assert_allclose(red[:, 4:], 0.2, atol=0.003)
+    assert owned.is_ours(made.group)
+
+
+def test_smoke_that_is_not_solved_is_told(shot, stage):
+    """The small shot has no smoke at all."""
+    assert smoke.bake(shot, stage, lambda *_: None, pytest.fail) is None
