@@ -11,6 +11,7 @@ import bpy
 import firetwin
 import numpy as np
 import pytest
+import views
 from firetwin import auto_framing
 from firetwin.blender import owned, viewport
 from firetwin.errors import InputError, input_error
@@ -756,9 +757,7 @@ def test_a_build_in_the_window_outlives_renames_and_undo_before_it_begins(settin
 def drawn(kind, scene):
     """All texts that a panel or menu gives its layout; it must not fail."""
     layout = MagicMock()
-    region, system = SimpleNamespace(width=300), SimpleNamespace(ui_scale=1.0)
-    context = SimpleNamespace(scene=scene, preferences=SimpleNamespace(system=system), region=region)
-    kind.draw(SimpleNamespace(layout=layout), context)
+    kind.draw(SimpleNamespace(layout=layout), views.context(scene))
     return str(layout.mock_calls)
 
 
@@ -794,12 +793,7 @@ class Paper:
 def test_drawing_the_sidebar_costs_little(settings, scene_file, capsys):
     """Below a millisecond is wanted; the figure is in the log, for a busy machine proves nothing."""
     settings.scene_file = str(scene_file)
-    system = SimpleNamespace(ui_scale=1.0)
-    context = SimpleNamespace(
-        scene=bpy.context.scene,
-        preferences=SimpleNamespace(system=system),
-        region=SimpleNamespace(width=300),
-    )
+    context = views.context(bpy.context.scene)
     took = {}
     for kind in (cls for cls in firetwin.ui.classes if issubclass(cls, bpy.types.Panel)):
         times = []

@@ -6,6 +6,7 @@ from unittest.mock import MagicMock
 import bpy
 import firetwin
 import pytest
+import views
 from firetwin.scene.live import cost, switch
 from firetwin.ui import frame_clock
 from firetwin.ui.viewport import facts, overlay, panel, redraws
@@ -31,24 +32,12 @@ def live(scene, monkeypatch):
     return scene
 
 
-def space(**values):
-    """A 3D view."""
-    shading = SimpleNamespace(type=values.pop("shading", "RENDERED"), use_scene_world=True)
-    return SimpleNamespace(**{"shading": shading, "local_view": None, "clip_end": 500_000.0, **values})
-
-
 def drawn(scene):
     """Return the texts that the panel draws."""
     layout = MagicMock()
     for name in ("column", "row", "split"):
         getattr(layout, name).return_value = layout
-    context = SimpleNamespace(
-        scene=scene,
-        space_data=space(),
-        preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
-        region=SimpleNamespace(width=400),
-    )
-    panel.FIRETWIN_PT_viewport.draw(SimpleNamespace(layout=layout), context)
+    panel.FIRETWIN_PT_viewport.draw(SimpleNamespace(layout=layout), views.context(scene, 400))
     return [call.kwargs["text"] for call in layout.mock_calls if "text" in call.kwargs]
 
 
@@ -99,9 +88,9 @@ def test_reasons_are_read_once_after_a_change(live, monkeypatch):
     ],
 )
 def test_a_view_says_what_it_does_not_draw(values, word):
-    (reason,) = facts.view_reasons(space(**values))
+    (reason,) = facts.view_reasons(views.space(**values))
     assert word in reason
-    assert not [*facts.view_reasons(space())]
+    assert not [*facts.view_reasons(views.space())]
 
 
 def test_text_over_the_view_has_cost_and_times(live):
