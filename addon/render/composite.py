@@ -23,6 +23,7 @@ _EDGE = 0.02  # smallest difference of transmittance across a silhouette
 _REACH, _SAME_DEPTH = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface
 _GAP = 1.5  # of white: limit on the radiance of flames in gaps (by eye)
 _BEHIND = 1.25  # distance behind flames over the distance at which half of their light is emitted (by eye)
+_SOLID = 1.0e-6  # rounding of a share of all rays
 _TOUCHES = 2.0e-3  # relative depth by which text may be behind a surface, such as the ground below it
 _SURE = 15.0  # rays at which a pixel's coverage has the same weight as its neighbours'; estimated
 
@@ -117,7 +118,9 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     white
         Radiance that is white in the picture, if the light of flames in gaps is to be softened.
     """
-    share = _coverage(surfaces, distances)[..., None]
+    share = _coverage(surfaces, distances)
+    hidden = _flame_coverage(surfaces, distances, share)[..., None]
+    share = share[..., None]
     smoke, through = marched[..., :3], marched[..., 3:4]
     flamelight = marched[..., 4:7] if marched.shape[-1] > 4 else np.zeros_like(smoke)
     near, far, flames = (through[:, :, k] for k in range(3))
@@ -131,12 +134,14 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     # with distant light, such as fire behind smoke. Flames that are marched are not in that colour.
     split = share * inner * (near - far) + solid * far
     behind = np.where(edge[..., None], split, behind)
-    gaps = (1.0 - share) * (smoke[:, :, 1] - smoke[:, :, 0])
+    flaming = (1.0 - hidden) * (flamelight[:, :, 1] - flamelight[:, :, 0])
+    veil = smoke - flamelight
+    gaps = (1.0 - share) * (veil[:, :, 1] - veil[:, :, 0]) + flaming
     light = smoke[:, :, 0] + gaps
-    burning = flamelight[:, :, 0] + (1.0 - share) * (flamelight[:, :, 1] - flamelight[:, :, 0])
+    burning = flamelight[:, :, 0] + flaming
     if white is not None:
-        flaming = gaps * _share_of_flames(gaps)
-        limited = _limited(flaming, share, _GAP * white) - flaming
+        excess = gaps * _share_of_flames(gaps)
+        limited = _limited(excess, hidden, _GAP * white) - excess
         light += limited
         burning = np.maximum(burning + limited, np.minimum(burning, 0.0))  # blue of flames is negative
     surface = np.maximum(behind + fire * flames, 0.0)
@@ -272,18 +277,38 @@ def _coverage(surfaces: Surfaces, distances: Array) -> Array:
     unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
     share = np.where(unknown, surfaces.distance <= distances[..., 0] * (1.0 + _SAME_DEPTH), share)
     share = np.where(apart > 1.0e-3 * near, share, 1.0)
-    before = own * surfaces.before + (1.0 - own) * blur(surfaces.before[..., None])[..., 0]
-    return np.where(_hides_flames(surfaces, distances[..., 0]) & ~unknown, before, share)
+    before = _before_flames(surfaces)
+    # If both surfaces are before the flames, `before` counts rays to the far one too.
+    divided = _hides_flames(surfaces, distances) & (distances[..., 1] > surfaces.flame_distance)
+    return np.where(divided, before, share)
 
 
-def _hides_flames(surfaces: Surfaces, near: Array) -> NDArray[np.bool_]:
-    """Return a mask (h, w) of pixels whose near surface is before the flames."""
-    return near < surfaces.flame_distance
+def _flame_coverage(surfaces: Surfaces, distances: Array, share: Array) -> Array:
+    """Estimate the coverage (h, w) for the light of flames: by all rays that meet surfaces before them."""
+    return np.where(_hides_flames(surfaces, distances), _before_flames(surfaces), share)
+
+
+def _hides_flames(surfaces: Surfaces, distances: Array) -> NDArray[np.bool_]:
+    """Return a mask (h, w) of pixels whose near surface, of known distance, is before the flames."""
+    unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
+    return (distances[..., 0] < surfaces.flame_distance) & ~unknown
+
+
+def _before_flames(surfaces: Surfaces) -> Array:
+    """Estimate the share (h, w) of the pixel that shows surfaces before the flames."""
+    own = surfaces.rays / (surfaces.rays + _SURE)
+    return own * surfaces.before + (1.0 - own) * _mean_before(surfaces)
+
+
+def _mean_before(surfaces: Surfaces) -> Array:
+    """Compute the mean share (h, w) of rays that meet a surface before the flames, over 3 x 3 pixels."""
+    return blur(surfaces.before[..., None])[..., 0]
 
 
 def _extended(surfaces: Surfaces) -> NDArray[np.bool_]:
-    """Return a mask (h, w) of pixels in foliage before flames, of which no central ray goes through a gap."""
-    return _neighbourhood(surfaces.distance, np.maximum) < surfaces.flame_distance
+    """Return a mask (h, w) of foliage before flames with gaps that no central ray goes through."""
+    covered = _neighbourhood(surfaces.distance, np.maximum) < surfaces.flame_distance
+    return covered & (_mean_before(surfaces) < 1.0 - _SOLID)
 
 
 def _near_share(distance: Array, distances: Array) -> Array:

@@ -59,8 +59,10 @@ def test_behind_thick_smoke_nothing_is_seen():
     assert picture(surfaces(3.0, 700.0), extinction=1.0) == pytest.approx(2.0, rel=1e-5)
 
 
+@pytest.mark.parametrize("flames", [0.0, 5000.0])
 @pytest.mark.parametrize("part", [0.0, 1 / 3, 2 / 3, 1.0])
-def test_a_pixel_at_a_silhouette_is_shared_by_near_and_far(part):
+def test_a_pixel_at_a_silhouette_is_shared_by_near_and_far(part, flames):
+    """Also if flames are behind both surfaces, such as a tree before burned ground."""
     distance = np.full(SIZE, 200.0, np.float32)
     distance[:, 5:] = 4000.0
     near, far = np.float32(1.0), np.float32(8.0)
@@ -68,7 +70,8 @@ def test_a_pixel_at_a_silhouette_is_shared_by_near_and_far(part):
     colour = np.where(distance[..., None] < 1000.0, near, far) * np.ones(3, np.float32)
     nearness[:, 4] = part * 5.0 + (1.0 - part) * 0.25
     colour[:, 4] = part * near + (1.0 - part) * far
-    found = surfaces(0.0, distance, colour=colour, noisy=colour, nearness=nearness)
+    known = {"flame_distance": np.full(SIZE, flames, np.float32), "before": np.ones(SIZE, np.float32)}
+    found = surfaces(0.0, distance, colour=colour, noisy=colour, nearness=nearness, **known)
     through = np.exp(-1e-3 * np.array([200.0, 4000.0]))
     veil = 2.0 * (1.0 - through)
     expected = part * (near * through[0] + veil[0]) + (1.0 - part) * (far * through[1] + veil[1])
@@ -319,7 +322,7 @@ def test_layers_add_up_and_are_positive(seed, white):
         assert layer.min() > -1e-4
     without = composite.compose(found, at, smoke, 1.0 if white else None)
     without = composite.soften_highlights(without, 2.0) if white else without
-    assert np.array_equal(without.picture, made.picture)
+    assert without.picture == pytest.approx(made.picture, rel=1e-5, abs=1e-5)
 
 
 def test_lights_have_the_shares_of_their_groups():
