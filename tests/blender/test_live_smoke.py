@@ -1,5 +1,7 @@
 """Live smoke: the optical depth of the smoke from each direction, in pictures that depend on time alone."""
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
@@ -21,9 +23,9 @@ def slabs(opacity, light=0.5):
 
 @pytest.fixture
 def baked(grid):
-    """Smoke at two moments: two cells of one slab of each axis, thicker at the second moment."""
+    """Smoke at two moments: four cells of one slab of each axis, thicker at the second moment."""
     opacity = np.zeros((16, 16, 16))
-    opacity[8, 4:8, 4:8] = 0.5
+    opacity[8, 5:7, 5:7] = 0.5
     pair = [slabs(opacity), slabs(opacity * 1.5)]
     shadow = np.stack([np.ones((4, 4)), np.full((4, 4), 0.2)]).astype(np.float32)
     low = np.array([-400.0, -400.0])
@@ -86,6 +88,15 @@ def test_sheets_exist_only_where_smoke_ever_is(stage, baked):
         assert bounds[0, axis] == pytest.approx(25.0)
 
 
+@pytest.mark.parametrize(("row", "column", "quads"), [(5, 5, 1), (4, 5, 2), (5, 7, 2), (7, 4, 4)])
+def test_sheets_end_where_the_picture_has_faded(stage, baked, row, column, quads):
+    """A cell at the side of a quad of 4 x 4 cells fades into its neighbour, so the neighbour has a quad too."""
+    opacity = np.zeros((16, 16, 16))
+    opacity[8, row, column] = 0.5
+    made = smoke.build(stage, stage.part("Live"), replace(baked, slabs=[[slabs(opacity)] * 2] * 3))
+    assert [len(obj.data.polygons) for obj in made] == [quads] * 3
+
+
 def test_a_sheet_reads_its_own_row_of_the_picture(stage, baked):
     """Rows of a picture are sheets, columns are moments; opacity is in its alpha."""
     (obj, *_) = smoke.build(stage, stage.part("Live"), baked)
@@ -97,9 +108,9 @@ def test_a_sheet_reads_its_own_row_of_the_picture(stage, baked):
     alpha = np.empty(4 * image.size[0] * image.size[1], np.float32)
     image.pixels.foreach_get(alpha)
     alpha = alpha.reshape(16 * 16, 2 * 16, 4)[..., 3]
-    rows = slice(round(v.min() * 256), round(v.max() * 256))
+    rows = slice(round(v.min() * 256) + 1, round(v.max() * 256) - 1)
     for moment, expected in ((0, 0.5), (1, 0.75)):
-        columns = slice(round((u.min() + moment) * 16), round((u.max() + moment) * 16))
+        columns = slice(round((u.min() + moment) * 16) + 1, round((u.max() + moment) * 16) - 1)
         np.testing.assert_allclose(alpha[rows, columns], expected, atol=0.003)
         alpha[rows, columns] = 0.0
     assert alpha.max() == 0.0

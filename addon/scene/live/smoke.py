@@ -146,7 +146,7 @@ def _sheet(
 ) -> bpy.types.Mesh | None:
     """Create quads where a sheet is ever visible; None if nowhere. `sheet` is their place in the picture."""
     rows, columns = opacity.shape
-    blocks = opacity.reshape(rows // _PATCH, _PATCH, columns // _PATCH, _PATCH).max(axis=(1, 3))
+    blocks = _spread(opacity).reshape(rows // _PATCH, _PATCH, columns // _PATCH, _PATCH).max(axis=(1, 3))
     j, i = np.nonzero(blocks > _FAINT)
     if not len(j):
         return None
@@ -163,6 +163,13 @@ def _sheet(
     sheet[:, 0], sheet[:, 1] = kept[:, 1] / columns, (slab + kept[:, 0] / rows) / slabs
     add_attribute(data, "sheet", "FLOAT_VECTOR", sheet)
     return data
+
+
+def _spread(opacity: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the maximum of each cell and its neighbours: a picture fades from cell to cell, beyond their sides."""
+    rows, columns = opacity.shape
+    padded = np.pad(opacity, 1)
+    return np.max([padded[j : j + rows, i : i + columns] for j in range(3) for i in range(3)], axis=0)
 
 
 def _centre(obj: bpy.types.Object) -> None:
