@@ -90,11 +90,35 @@ def test_sheets_exist_only_where_smoke_ever_is(stage, baked):
 
 @pytest.mark.parametrize(("row", "column", "quads"), [(5, 5, 1), (4, 5, 2), (5, 7, 2), (7, 4, 4)])
 def test_sheets_end_where_the_picture_has_faded(stage, baked, row, column, quads):
-    """A cell at the side of a quad of 4 x 4 cells fades into its neighbour, so the neighbour has a quad too."""
+    """A cell at the side of a quad of 4 x 4 cells fades into its neighbour, so that has a quad too."""
     opacity = np.zeros((16, 16, 16))
     opacity[8, row, column] = 0.5
     made = smoke.build(stage, stage.part("Live"), replace(baked, slabs=[[slabs(opacity)] * 2] * 3))
     assert [len(obj.data.polygons) for obj in made] == [quads] * 3
+
+
+def test_sheets_that_cross_have_the_same_light():
+    """Light that is linear along each axis has its value at each place of a sheet."""
+    cells = (np.linspace(0.0, 80.0, 9), np.linspace(-60.0, 0.0, 7), np.linspace(10.0, 50.0, 5))
+    edges = ([10.0, 25.0, 70.0], [-50.0, -30.0, -5.0], [16.0, 20.0, 42.0])
+    uneven = smoke_grid.Grid(tuple(np.array(each) for each in edges), cells)
+    x, y, z = np.meshgrid(*(0.5 * (each[1:] + each[:-1]) for each in cells), indexing="ij")
+    field = np.repeat((x + 2.0 * y + 3.0 * z)[..., None], 3, axis=-1)
+    for axis in range(3):
+        places = [0.5 * (each[1:] + each[:-1]) for each in cells]
+        places[axis] = 0.5 * (uneven.slabs[axis][1:] + uneven.slabs[axis][:-1])
+        x, y, z = np.meshgrid(*places, indexing="ij")
+        expected = (x + 2.0 * y + 3.0 * z).transpose(axis, *smoke_grid.plane(axis))
+        np.testing.assert_allclose(smoke_grid.on_sheets(uneven, axis, field)[..., 1], expected, rtol=1e-5)
+
+
+def test_clear_cells_have_the_light_of_smoke_nearby():
+    """Two cells of smoke: light is their own there, theirs nearby, and their mean far away."""
+    seen = np.zeros((30, 9, 9, 4), np.float32)
+    seen[4, 4, 4] = [0.2, 0.2, 0.2, 0.5]
+    seen[25, 4, 4] = [0.4, 0.4, 0.4, 0.5]
+    light = smoke_grid._filled(seen)[:, 4, 4, 0]
+    np.testing.assert_allclose(light[[4, 6, 15, 23, 25]], [0.4, 0.4, 0.6, 0.8, 0.8], rtol=0.02)
 
 
 def test_a_sheet_reads_its_own_row_of_the_picture(stage, baked):

@@ -76,8 +76,8 @@ def bake(shot: Shot, stage: Stage, progress: Progress, tell: MessageCallback) ->
             layers = list(found.bricks(frame))
             scene.frame_set(frame)
             light = illumination.visible_light(stage, everywhere=True)
-            for axis in range(3):
-                slabs[axis].append(smoke_grid.bake(grid, axis, layers, light))
+            for of_axis, each in zip(slabs, smoke_grid.bake(grid, layers, light), strict=True):
+                of_axis.append(each)
             sun, part = illumination.sun_direction(stage), illumination.light_ray_factor(stage)
             shadow.append(smoke_grid.sun_left(layers, places, sun, part))
         progress(len(frames), len(frames), "live smoke")
@@ -166,7 +166,7 @@ def _sheet(
 
 
 def _spread(opacity: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the maximum of each cell and its neighbours: a picture fades from cell to cell, beyond their sides."""
+    """Return the maximum of each cell and its neighbours: a picture fades beyond the sides of its cells."""
     rows, columns = opacity.shape
     padded = np.pad(opacity, 1)
     return np.max([padded[j : j + rows, i : i + columns] for j in range(3) for i in range(3)], axis=0)

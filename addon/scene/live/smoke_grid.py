@@ -1,9 +1,9 @@
 """Grid of the live smoke: slabs across each axis, finer near the viewers' target, and their light.
 
 Each axis has slabs that are normal to it, cut into cells. A cell has the optical depth of the smoke along the
-axis, and its mean light. A ray that makes the angle t with an axis meets 1 / cos t of a slab's optical depth.
-Weighted by cos^4 t over the sum of all axes, the slabs together have the ray's depth from every direction,
-and those seen from their side are clear.
+axis, and the light in its middle. A ray that makes the angle t with an axis meets 1 / cos t of a slab's
+optical depth. Weighted by cos^4 t over the sum of all axes, the slabs together have the ray's depth from
+every direction, and those seen from their side are clear.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ _NEAR = (700.0, 700.0, 200.0)  # m, distance from the target at which cells are 
 SLABS, CELLS = (18, 18, 12), (128, 128, 48)
 """Number of slabs along each axis, and of cells along each axis within slabs."""
 _STEP = 1.0  # voxels
+_REACH = 8  # cells from smoke within which clear cells take its light
+_NEARBY = 0.05  # weight of neighbours in the light of a cell
 _VOXEL = 50.0  # m
 
 Array = NDArray[np.float64]
@@ -87,10 +89,23 @@ def plane(axis: int) -> tuple[int, int]:
     return (2, 1) if axis == 0 else (2, 0) if axis == 1 else (1, 0)
 
 
-def bake(grid: Grid, axis: int, layers: list[volume.Bricks], light: volume.Illumination) -> Slabs:
-    """March through the slabs of one axis, a ray in each cell."""
-    rows, columns = (0.5 * (grid.cells[k][1:] + grid.cells[k][:-1]) for k in plane(axis))
-    edges = grid.slabs[axis]
+def bake(grid: Grid, layers: list[volume.Bricks], light: volume.Illumination) -> list[Slabs]:
+    """March through the slabs of each axis, a ray in each cell, and through each cell for its light."""
+    seen = _march(grid, 2, grid.cells[2], layers, light)
+    field = _filled(seen.transpose(2, 1, 0, 3))
+    made = []
+    for axis in range(3):
+        opacity = _march(grid, axis, grid.slabs[axis], layers, light)[..., 3]
+        _clear_rim(opacity)
+        made.append(Slabs(on_sheets(grid, axis, field), opacity))
+    return made
+
+
+def _march(
+    grid: Grid, axis: int, edges: Array, layers: list[volume.Bricks], light: volume.Illumination
+) -> NDArray[np.float32]:
+    """Return light and opacity (slabs, rows, columns, 4) between edges along an axis."""
+    rows, columns = (_middle(grid.cells[k]) for k in plane(axis))
     shape = len(edges) - 1, len(rows), len(columns)
     origins = np.empty((*shape, 3))
     origins[..., plane(axis)[0]] = rows[:, None]
@@ -99,13 +114,44 @@ def bake(grid: Grid, axis: int, layers: list[volume.Bricks], light: volume.Illum
     ends = np.broadcast_to(np.diff(edges)[:, None, None], shape).reshape(-1, 1)
     way = np.broadcast_to(np.eye(3)[axis], (ends.size, 3))
     found = volume.march(layers, origins.reshape(-1, 3), np.ascontiguousarray(way), ends, light, _STEP)
-    found = found.reshape(*shape, 4)
-    opacity = 1.0 - found[..., 3]
-    _clear_rim(opacity)
-    glowing = found[..., :3] / np.maximum(opacity, 1.0e-4)[..., None]
-    thick = opacity > 2.0e-3
-    mean = glowing[thick].mean(axis=0) if thick.any() else np.zeros(3, np.float32)
-    return Slabs(np.where(thick[..., None], glowing, mean).astype(np.float32), opacity.astype(np.float32))
+    found = np.array(found, np.float32).reshape(*shape, 4)
+    found[..., 3] = 1.0 - found[..., 3]
+    return found
+
+
+def _middle(edges: Array) -> Array:
+    return 0.5 * (edges[1:] + edges[:-1])
+
+
+def _filled(seen: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the light (x, y, z, 3) of opaque smoke in each cell; clear cells take that of smoke nearby."""
+    total = seen.copy()
+    mean = seen.sum(axis=(0, 1, 2))
+    for _ in range(_REACH):
+        near = total
+        for axis in range(3):
+            padded = np.pad(near, [(int(k == axis),) * 2 for k in range(4)])
+            near = (
+                padded.take(range(near.shape[axis]), axis)
+                + near
+                + padded.take(range(2, near.shape[axis] + 2), axis)
+            ) / np.float32(3.0)
+        total = seen + np.float32(_NEARBY) * near
+    total += np.float32(1.0e-9) * mean / max(float(mean[3]), 1.0e-9)
+    return total[..., :3] / np.maximum(total[..., 3:], np.float32(1.0e-12))
+
+
+def on_sheets(grid: Grid, axis: int, field: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the light (slabs, rows, columns, 3) of the cells (x, y, z, 3) on the sheets of an axis.
+
+    Light depends on the place alone: sheets that cross are equally bright there, so their order is not seen.
+    """
+    first, second = plane(axis)
+    field = field.transpose(axis, first, second, 3)
+    at = np.interp(_middle(grid.slabs[axis]), _middle(grid.cells[axis]), np.arange(len(field)))
+    low = np.minimum(at.astype(int), len(field) - 2)
+    part = (at - low).astype(np.float32)[:, None, None, None]
+    return (1.0 - part) * field[low] + part * field[low + 1]
 
 
 def _clear_rim(opacity: NDArray[np.floating]) -> None:
