@@ -65,7 +65,7 @@ def write(path: Path, put: Callable[[Path], object], durable: bool = True) -> No
             part.unlink(missing_ok=True)
 
 
-def link_or_copy(path: Path, other: Path) -> None:
+def link_or_copy(path: str | Path, other: str | Path) -> None:
     """Give a file a second name; copy it if the file system has no hard links."""
     try:
         os.link(path, other)

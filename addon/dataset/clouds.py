@@ -25,14 +25,11 @@ _CLEAREST, _COVERED = 0.64, 0.36  # noise at the edge of clouds for a cover of 0
 _HEIGHT, _ROUND = 1.1, 0.24  # of the highest heaps; rise of the edge up to there
 _SOFT, _THICK = 0.06, 0.22  # noise from edge to opaque, and to the greyest
 _FLAT = 0.05  # height over which a base begins
-_ASIDE, _RELIEF = (
-    0.22,
-    4.5,
-)  # distance towards the light at which noise is compared; contrast of light and shade
+_ASIDE = 0.22  # distance towards the light at which noise is compared
+_RELIEF = 4.5  # contrast of light and shade
 _OVERHEAD = 0.28, 0.45  # sines of elevation between which the layer overhead replaces heaps
-_HAZE = (
-    1.5  # optical depth to a heap relative to distance / visibility: less than 3.912, as air is clear above
-)
+# optical depth to a heap relative to distance / visibility: less than 3.912, as air is clear above
+_HAZE = 1.5
 _SHARE = 0.30  # radiance relative to a white surface under sun and sky, as of smoke (`exposure_meter`)
 _SHADE = 0.25  # radiance of the shade relative to the light
 _DARKER = 0.35  # share of light that a closed cover takes

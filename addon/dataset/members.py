@@ -23,8 +23,7 @@ def chosen(path: Path, wanted: Sequence[str]) -> list[str]:
     InputError
         The ensemble cannot be read.
     """
-    known = [member.name for member in ensemble.open(path).members]
-    return known if list(wanted) == [ALL] else list(wanted)
+    return _names(path) if list(wanted) == [ALL] else list(wanted)
 
 
 def fault(path: Path, wanted: Sequence[str]) -> str | None:
@@ -33,12 +32,18 @@ def fault(path: Path, wanted: Sequence[str]) -> str | None:
         return f"{path} is not an ensemble; leave out members" if wanted else None
     if not wanted:
         return f'{path} is an ensemble; choose its members: members = ["{ALL}"]'
-    known = [member.name for member in ensemble.open(path).members]
-    missing = next((name for name in chosen(path, wanted) if name not in known), None)
+    if list(wanted) == [ALL]:
+        return None
+    known = _names(path)
+    missing = next((name for name in wanted if name not in known), None)
     if missing is None:
         return None
     hint = suggestion(missing, known) or f"; known here: {', '.join(known[:20])}"
     return f'{path} has no member "{missing}"{hint}'
+
+
+def _names(path: Path) -> list[str]:
+    return [member.name for member in ensemble.open(path).members]
 
 
 def folder(path: Path, member: str) -> Path:

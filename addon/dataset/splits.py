@@ -87,7 +87,7 @@ def _choose(plan: Plan) -> str:
 
 
 def _group(run: PlanRun, by: str) -> str:
-    """Return the group of a run; members of one ensemble are one run, as their fires are alike."""
+    """Return the group of a run. Members of an ensemble share one, as their fires resemble each other."""
     return run.place if by == "place" else str(run.ensemble or run.name)
 
 

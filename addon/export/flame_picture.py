@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..scene import glow
 from ..scene.terrain.ground_picture import encode
 
 _SIZE = 256, 128  # rows, columns
-_RIM, _CORE = np.array((1.0, 0.12, 0.008)), np.array((1.0, 0.55, 0.15))  # linear, as in the flames' material
+_RIM, _CORE = np.array(glow.RIM), np.array(glow.CORE)
 
 
 def draw(seed: int = 7) -> NDArray[np.uint8]:

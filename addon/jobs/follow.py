@@ -110,7 +110,7 @@ def _check(settings: Settings) -> None:
 
 
 def _look(settings: Settings, place: Path) -> _Known | None:
-    """Open the newest revision, which is kept in the folder `place`; None before the first time."""
+    """Open the newest revision, linked into the folder `place`; None before the first time."""
     folder = settings.run
     if not watched.is_watched(folder):
         run = readers.open(folder)
@@ -126,10 +126,6 @@ def _look(settings: Settings, place: Path) -> _Known | None:
     return _Known(readers.open(kept), ended, f"{first.generation} {first.time} {first.sha256}")
 
 
-def _link(path: str, other: str) -> None:
-    files.link_or_copy(Path(path), Path(other))
-
-
 def _keep(folder: Path, place: Path) -> Path:
     """Link the newest revision into a folder, as `firetwin watch` removes old ones; return its copy."""
     while True:
@@ -140,7 +136,7 @@ def _keep(folder: Path, place: Path) -> Path:
             return kept
         shutil.rmtree(place, ignore_errors=True)
         try:
-            return Path(shutil.copytree(newest, kept, copy_function=_link))
+            return Path(shutil.copytree(newest, kept, copy_function=files.link_or_copy))
         except OSError:
             if watched.newest(folder) == newest:
                 raise

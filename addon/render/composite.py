@@ -159,8 +159,7 @@ def smoke_opacity(surfaces: Surfaces, distances: Array, marched: Array) -> Array
 
 def solid_share(surfaces: Surfaces) -> Array:
     """Return the share (h, w) of the pixel that surfaces cover, and not the sky."""
-    unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
-    return np.where(unknown, 1.0, np.clip(surfaces.solid, 0.0, 1.0)).astype(np.float32)
+    return np.where(_is_unknown(surfaces), 1.0, np.clip(surfaces.solid, 0.0, 1.0)).astype(np.float32)
 
 
 def split_light(surfaces: Surfaces, solid: Array) -> tuple[Array, Array, Array]:
@@ -258,7 +257,7 @@ def average_hot(radiance: Array, rays: int, hot: float) -> Array:
     or the other, so its mean is estimated from its neighbours too. The fewer `rays` per pixel, the more they
     count. Colder pixels are unchanged.
     """
-    own = rays / (rays + _SURE)
+    own = _own_weight(rays)
     near = widen(radiance > hot, 1)
     smooth = own * radiance + (1.0 - own) * blur(radiance[..., None])[..., 0]
     return np.where(near, smooth, radiance).astype(np.float32)
@@ -270,12 +269,13 @@ def _coverage(surfaces: Surfaces, distances: Array) -> Array:
     apart = near - far
     share = np.clip((surfaces.nearness - far) / np.where(apart > 0.0, apart, 1.0), 0.0, 1.0)
     # Before the sky only the pixel's own rays count: its colour has the sky's in the same share.
-    own = surfaces.rays / (surfaces.rays + _SURE)
+    own = _own_weight(surfaces.rays)
     sure = np.where(distances[..., 1] < SKY, own, 1.0)
     share = sure * share + (1.0 - sure) * _near_share(surfaces.distance, distances)
     # Materials of an artist do not write distance: only the depth of the centre ray is known.
-    unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
-    share = np.where(unknown, surfaces.distance <= distances[..., 0] * (1.0 + _SAME_DEPTH), share)
+    share = np.where(
+        _is_unknown(surfaces), surfaces.distance <= distances[..., 0] * (1.0 + _SAME_DEPTH), share
+    )
     share = np.where(apart > 1.0e-3 * near, share, 1.0)
     before = _before_flames(surfaces)
     # If both surfaces are before the flames, `before` counts rays to the far one too.
@@ -290,13 +290,22 @@ def _flame_coverage(surfaces: Surfaces, distances: Array, share: Array) -> Array
 
 def _hides_flames(surfaces: Surfaces, distances: Array) -> NDArray[np.bool_]:
     """Return a mask (h, w) of pixels whose near surface, of known distance, is before the flames."""
-    unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
-    return (distances[..., 0] < surfaces.flame_distance) & ~unknown
+    return (distances[..., 0] < surfaces.flame_distance) & ~_is_unknown(surfaces)
+
+
+def _is_unknown(surfaces: Surfaces) -> NDArray[np.bool_]:
+    """Return a mask (h, w) of pixels with a material that writes no distance."""
+    return (surfaces.solid < 0.5) & (surfaces.distance < SKY)
+
+
+def _own_weight(rays: int) -> float:
+    """Return the weight, 0 to 1, of a pixel of few rays relative to the mean with its neighbours."""
+    return rays / (rays + _SURE)
 
 
 def _before_flames(surfaces: Surfaces) -> Array:
     """Estimate the share (h, w) of the pixel that shows surfaces before the flames."""
-    own = surfaces.rays / (surfaces.rays + _SURE)
+    own = _own_weight(surfaces.rays)
     return own * surfaces.before + (1.0 - own) * _mean_before(surfaces)
 
 

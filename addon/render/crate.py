@@ -6,7 +6,6 @@ The format is RO-Crate 1.2 (https://w3id.org/ro/crate/1.2). Hashes, model times 
 
 from __future__ import annotations
 
-import itertools
 import json
 import mimetypes
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -111,16 +110,16 @@ def _inputs(
     """
     found = dict[str, Hashes]()
     for made_with in settings.values():
-        shown = [made_with.get("run"), *made_with.get("beside", {}).values()]
-        members = made_with.get("members", {})  # of the ensemble of the first, which is the film's run
-        for hashes, more in itertools.zip_longest(shown, [members], fillvalue=Hashes()):
+        run = made_with.get("run")
+        members = made_with.get("members", {})  # of the run's ensemble
+        for hashes in (run and run | members, *made_with.get("beside", {}).values()):
             if not hashes:
                 continue
             label = next((label for label, fields in runs.items() if _agree(hashes, fields)), None)
             if label is None:
                 reason = "lists a picture of another run; name the scene file of this film"
                 raise input_error(out / manifest.NAME, reason)
-            found[label] = found.get(label, {}) | hashes | more
+            found[label] = found.get(label, {}) | hashes
     return found
 
 

@@ -12,7 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from ...blender import owned
 from ...blender.owned import Stage
 
-_GROUNDS = "Ground", "Live Ground"  # of the film's scene and of the live scene, of which one is hidden
+_GROUNDS = (
+    f"{owned.ROOT} Ground",
+    f"{owned.ROOT} Live Ground",
+)  # of the film's scene and of the live scene, of which one is hidden
 _SKY = 50_000.0  # m, above any terrain
 
 
@@ -32,7 +35,7 @@ def height_above_terrain(stage: Stage, places: NDArray[np.float64]) -> float:
 def cast_ray(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
     """Intersect a ray in the scene with the terrain that 3D views show; None without an intersection."""
     layer = stage.scene.view_layers[0]
-    grounds = [obj for name in _GROUNDS for obj in stage.root.all_objects if _is_terrain(obj, name)]
+    grounds = [obj for obj in stage.root.all_objects if _is_terrain(obj)]
     if not grounds:
         return None
     ground = next((obj for obj in grounds if obj.visible_get(view_layer=layer)), grounds[0])
@@ -58,5 +61,5 @@ def clearance_offset(stage: Stage, place: Sequence[float] | NDArray[np.float64],
     return 0.0 if ground is None else float(max(ground + clearance - np.asarray(place)[2], 0.0))
 
 
-def _is_terrain(obj: bpy.types.Object, name: str) -> bool:
-    return obj.type == "MESH" and owned.is_ours(obj) and obj.get(owned.NAME) == f"{owned.ROOT} {name}"
+def _is_terrain(obj: bpy.types.Object) -> bool:
+    return obj.type == "MESH" and owned.is_ours(obj) and obj.get(owned.NAME) in _GROUNDS

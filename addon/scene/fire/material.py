@@ -11,7 +11,6 @@ from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import flame_field, glow, haze, infrared
 
-_RIM, _BODY, _CORE = (1.0, 0.12, 0.008), (1.0, 0.34, 0.04), (1.0, 0.55, 0.15)
 _DIMMED = 0.2  # factor on the emission at the shorter distance of `glow.CLOSE`
 _FULL = 0.5, (1.5, 10.0)  # factor on the emission of low flames, which are thin; lengths, m
 _RISE = 9.0  # m/s, rise velocity of the pattern
@@ -23,9 +22,9 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     rim, middle, core = (
         tree.input(f"{name} Colour", colour, help, "Colour")
         for name, colour, help in (
-            ("Rim", _RIM, "Outermost, coolest part of a flame"),
-            ("Body", _BODY, "Most of a flame"),
-            ("Core", _CORE, "Hottest part of a flame"),
+            ("Rim", glow.RIM, "Outermost, coolest part of a flame"),
+            ("Body", glow.BODY, "Most of a flame"),
+            ("Core", glow.CORE, "Hottest part of a flame"),
         )
     )
     bright = tree.input("Brightness", glow.brightness(shot), "Radiance of the hottest part", "Light")

@@ -18,6 +18,8 @@ from .. import flame_field, flame_gaps, granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness
 from . import biomes
 
+TINTS = (0.68, 0.76, 0.82), (1.36, 1.22, 1.05)
+"""Factors on the colour of the bluest and of the yellowest trees."""
 TORCHING = 300.0  # s that a crown is in flames; it is gone afterwards
 _BUSH = 0.3  # fraction of that time of a bush amid grass (assumed)
 _TORCH = 0.1, 0.9  # factor of the flames' radiance at the distances CLOSE: crowns close by fill whole pixels
@@ -44,8 +46,8 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     material, tree = nodes.material("Firetwin Foliage", (0.16, 0.32, 0.10))
     tint = tree.attribute("tint", "INSTANCER")
     leaf = tree.attribute("leaf", output="Color")
-    cool = tree.input("Cool Tint", (0.68, 0.76, 0.82), "Factor on the bluest trees' colour", "Variety")
-    warm = tree.input("Warm Tint", (1.36, 1.22, 1.05), "Factor on the yellowest trees' colour", "Variety")
+    cool = tree.input("Cool Tint", TINTS[0], "Factor on the bluest trees' colour", "Variety")
+    warm = tree.input("Warm Tint", TINTS[1], "Factor on the yellowest trees' colour", "Variety")
     lost = tree.input("Dead Share", _DEAD, "Part of the trees that was brown before", "Variety", most=1.0)
     hue = tree.mix_colour(tree.attribute("hue", "INSTANCER"), *_HUES)
     varied = tree.mix_colour(1.0, tree.mix_colour(tint, cool, warm), hue, "MULTIPLY")

@@ -35,25 +35,28 @@ def steps(
         Receives the progress of long steps.
     """
     uid, budget = scene.session_uid, budget or TRIANGLES
+
+    def stage() -> owned.Stage:
+        return owned.stage(owned.scene(uid))  # an undo between steps replaces the scene
+
     try:
         yield "live smoke"
-        baked = smoke.bake(shot.full, owned.stage(owned.scene(uid)), progress, tell)
+        baked = smoke.bake(shot.full, stage(), progress, tell)
         yield "live ground"
-        live = switch.empty(owned.stage(owned.scene(uid)))
+        live = switch.empty(stage())
         shadow = smoke.shade(baked) if baked else None
         if baked:
-            sheets = smoke.build(owned.stage(owned.scene(uid)), live, baked)
+            sheets = smoke.build(stage(), live, baked)
             budget -= 2 * sum(len(each.data.polygons) for each in sheets)
-        base = ground.build(shot, owned.stage(owned.scene(uid)), live, round(_GROUND * budget), shadow)
+        base = ground.build(shot, stage(), live, round(_GROUND * budget), shadow)
         spare = budget - len(base.data.polygons)
         yield "live forest and flames"
-        stage = owned.stage(owned.scene(uid))
-        live = switch.collection(stage.scene)
+        live = switch.collection(stage().scene)
         if live is not None:
             grown = forest.grow(shot)
-            fire = flames.build(shot, stage, live, round(flames.SHARE * budget), grown)
+            fire = flames.build(shot, stage(), live, round(flames.SHARE * budget), grown)
             spare -= 2 * len(fire.data.polygons) if fire else 0
-            forest.build(shot, stage, live, spare, shadow, grown)
+            forest.build(shot, stage(), live, spare, shadow, grown)
     finally:
         node_updates.end_all()
 

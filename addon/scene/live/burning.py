@@ -6,13 +6,9 @@ from ...blender import nodes
 from ...shot.fire import heat_release
 from ...shot.shot import Shot
 from ..glow import EMBER, FAR, FLAME, FLAMING_TIME, brightness
+from ..terrain import burn_scar
 
 RAGGED = 60.0  # s, variation of the arrival time by noise
-_CHAR = (0.012, 0.012, 0.0125), (0.048, 0.046, 0.043)
-_ASH = (0.125, 0.123, 0.120)
-_PALER = 600.0, 14_400.0  # s since the fire in which ash becomes visible, as in `terrain.burn_scar`
-_EMBERS = 3600.0  # s, decay time
-_EMBER_LIGHT = 1.8  # radiance at exposure 0
 _REACH = 45.0  # m, decay length of the light of flames on the ground (by eye)
 _LIT = 0.35  # irradiance below flames over their radiance (by eye)
 
@@ -24,9 +20,9 @@ def short(shot: Shot) -> float:
 
 def scar_colour(tree: nodes.Tree, fine: nodes.Value, coarse: nodes.Value, age: nodes.Value) -> nodes.Value:
     """Return the colour of burned ground from two noises: char, with ash after some hours."""
-    char = tree.mix_colour(fine.smoothstep(0.35, 0.70), *_CHAR)
-    pale = coarse.smoothstep(0.48, 0.72) * age.smoothstep(*_PALER).ramp(0.0, 1.0, 0.25, 0.8)
-    return tree.mix_colour(pale, char, _ASH)
+    char = tree.mix_colour(fine.smoothstep(0.35, 0.70), *burn_scar.CHAR)
+    pale = coarse.smoothstep(0.48, 0.72) * age.smoothstep(*burn_scar.ASH_AGES).ramp(0.0, 1.0, 0.25, 0.8)
+    return tree.mix_colour(pale, char, burn_scar.ASH)
 
 
 def front_light(
@@ -46,8 +42,8 @@ def front_light(
     flame = tree.vector("SCALE", tree.combine(*FLAME), power)
     if not shot.settings.fire.embers:
         return flame
-    fading = (tree.math("MAXIMUM", age, 0.0) / -_EMBERS).exp() * (age > 0.0)
-    spots = fine.smoothstep(0.62, 0.74) * fading * _EMBER_LIGHT
+    fading = (tree.math("MAXIMUM", age, 0.0) / -burn_scar.EMBER_TIME).exp() * (age > 0.0)
+    spots = fine.smoothstep(0.62, 0.74) * fading * burn_scar.EMBER_LIGHT
     return tree.vector("ADD", flame, tree.vector("SCALE", tree.combine(*EMBER), spots))
 
 

@@ -1,7 +1,7 @@
 """Cost of a scene in a 3D view: triangles, instances, batches, and bytes of textures and volumes.
 
-These are what the graphics card is given, counted without one. A batch is a mesh with one material; an engine
-draws each at least once. Textures count uncompressed: a byte per channel, or two or four of floats.
+They describe the data for the graphics card; counting needs no card. A batch is a mesh with one material;
+an engine draws each at least once. Textures count uncompressed: a byte per channel, or two or four of floats.
 Volumes count with the size of their files of the current frame.
 """
 
@@ -54,7 +54,7 @@ class Cost:
 
 
 def measure(scene: bpy.types.Scene, live: bool | None = None) -> Cost:
-    """Count what 3D views show now, or what they show of the film's (False) or the live scene (True)."""
+    """Measure the scene that 3D views show now, the film's scene (False) or the live scene (True)."""
     before = switch.is_live(scene)
     if live is None or live == before or not switch.has_live(scene):
         return _measure(scene)

@@ -18,13 +18,12 @@ from ...shot.shot import Shot
 from .. import haze
 from ..fire import flames
 from ..forest.stand import Stand
-from ..glow import CLOSE, brightness
+from ..glow import BODY, CLOSE, CORE, RIM, brightness
 from . import viewers
 
 SHARE = 0.06
 """Share of the scene's triangles."""
 _SHEETS = 2
-_RIM, _BODY, _CORE = (1.0, 0.12, 0.008), (1.0, 0.34, 0.04), (1.0, 0.55, 0.15)  # as the film's
 _RISE = 9.0  # m/s
 _DIMMED = 0.35  # factor on the radiance close by
 _HIDES = 0.5  # opacity of flames
@@ -97,7 +96,7 @@ def _material(shot: Shot, stage: Stage) -> bpy.types.Material:
     torn = body + (tongue - 0.5) * 2.6 - high.power(1.5) * 0.75
     shape = torn.smoothstep(0.05, 0.75) * high.smoothstep(0.0, 0.06) * high.smoothstep(1.0, 0.85) * alive
     hot = (torn - high * 0.4).smoothstep(0.5, 1.5)
-    colour = tree.mix_colour(hot, tree.mix_colour(shape.smoothstep(0.15, 0.8), _RIM, _BODY), _CORE)
+    colour = tree.mix_colour(hot, tree.mix_colour(shape.smoothstep(0.15, 0.8), RIM, BODY), CORE)
     near = tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, _DIMMED, 1.0)
     air, _ = haze.fraction(tree, stage)
     bright = tree.input("Brightness", brightness(shot), "Radiance of the hottest part", "Light")

@@ -19,7 +19,7 @@ from ...shot.terrain import noise
 from ...shot.terrain.terrain import NEVER
 from .. import haze
 from ..forest import fire_effects, stand
-from ..forest.material import TORCHING
+from ..forest.material import TINTS, TORCHING
 from ..glow import FLAME, brightness
 from . import burning, trees, viewers
 from .shade import Shade
@@ -27,7 +27,6 @@ from .shade import Shade
 _SIDE = 4  # tiles along a side
 _TORCHED = 2.0
 _FAR_COST, _NEAR_COST = 4, 24  # triangles of a tree, for the budget
-_TINTS = (0.68, 0.76, 0.82), (1.36, 1.22, 1.05)  # factors on the bluest and yellowest trees, as in the film
 _BROWN, _BLACK = (0.085, 0.058, 0.036), (0.016, 0.013, 0.011)
 _BARE = 60.0, 180.0  # s from the fire to a bare tree
 _SPARSE = 0.62  # part of the leaves of a burned crown that is gone: sheets stand for its branches
@@ -88,7 +87,7 @@ def _mesh(
     """Create one mesh of trees, by their indices (n,)."""
     fire = _fire(shot, grown, chosen)
     lot = noise.uniform(grown.key[chosen, 0], grown.key[chosen, 1], shot.settings.seed + 300)[:, None]
-    tint = np.array(_TINTS[0]) + lot * np.subtract(_TINTS[1], _TINTS[0])
+    tint = np.array(TINTS[0]) + lot * np.subtract(TINTS[1], TINTS[0])
     points, triangles, colours, fires, outward, total = [], [], [], [], [], 0
     for model, close in np.unique(np.stack([grown.model[chosen], near], axis=-1), axis=0).tolist():
         crown = (trees.near if close else trees.far)(int(model))

@@ -79,7 +79,7 @@ def _material(shot: Shot, stage: Stage, shade: Shade | None) -> bpy.types.Materi
     for noise, (size, strength) in zip(tones, _TONES, strict=True):
         shown = distance.ramp(0.3 * _FADE * size, _FADE * size, 2.0 * strength, 0.0)
         tone = tone + (noise - 0.5) * shown
-        age = nodes.model_time(tree) - arrival + (tones[1] - 0.5) * burning.RAGGED
+    age = nodes.model_time(tree) - arrival + (tones[1] - 0.5) * burning.RAGGED
     there = (age > 0.0) * ((burned + (tones[1] - 0.5) * 0.6) > 0.5)
     scar = burning.scar_colour(tree, tones[0], tones[1], age)
     colour = tree.mix_colour(there, picture, scar)
@@ -97,19 +97,15 @@ def _material(shot: Shot, stage: Stage, shade: Shade | None) -> bpy.types.Materi
 def _colours(shot: Shot) -> bpy.types.Image:
     """Create the picture of the unburned ground, in 8 bits, packed into the .blend file."""
     (picture,) = ground_picture.paint(shot, np.array([-np.inf]))
-    rows, columns = picture.shape[:2]
-    image = bpy.data.images.new("Firetwin Live Ground Colours", columns, rows, alpha=False)
-    pixels = np.full((rows, columns, 4), 255, np.uint8)
-    pixels[..., :3] = picture[::-1]
-    image.pixels.foreach_set((pixels / np.float32(255.0)).ravel())
-    image.pack()
-    return owned.mark(image)
+    pixels = np.ones((*picture.shape[:2], 4), np.float32)
+    pixels[..., :3] = picture[::-1] / np.float32(255.0)
+    return fields.byte_image("Firetwin Live Ground Colours", pixels)
 
 
 def _fire(shot: Shot) -> bpy.types.Image:
     """Create the picture of the fire: arrival time (s), 1 where it burned, and rate of spread (m/s)."""
     ground = shot.ground
     known = np.minimum(ground.burn_time, _NEVER), ground.burned, shot.front.speed
-    size = -(-max(ground.shape) // fields.LARGEST)
+    size = fields.block_size(ground.shape)
     thin = [fields.downsample(np.asarray(each, np.float64), size) for each in known]
     return fields.float_image("Firetwin Live Fire", thin)

@@ -15,10 +15,12 @@ from numpy.typing import NDArray
 from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
+from ...imaging import srgb
 from ...progress import MessageCallback, Progress
 from ...shot.shot import Shot
 from .. import haze
 from ..smoke import illumination
+from ..terrain.fields import byte_image
 from . import smoke_grid, viewers
 from .shade import Shade
 
@@ -105,7 +107,7 @@ def shade(smoke: Smoke) -> Shade:
     moments, rows, columns = smoke.shadow.shape
     pixels = np.ones((rows, moments * columns, 4), np.float32)
     pixels[..., :3] = smoke.shadow.transpose(1, 0, 2).reshape(rows, -1)[..., None]
-    image = _image("Firetwin Live Shadow", pixels, is_data=True)
+    image = byte_image("Firetwin Live Shadow", pixels, is_data=True)
     group = owned.mark(bpy.data.node_groups.new("Firetwin Live Shade", "ShaderNodeTree"))
     group.interface.new_socket("Position", in_out="INPUT", socket_type="NodeSocketVector")
     group.interface.new_socket("Light", in_out="OUTPUT", socket_type="NodeSocketFloat")
@@ -194,9 +196,9 @@ def _material(
     name = f"Firetwin Live Smoke {_AXES[axis]}"
     material, tree = nodes.material(name)
     moments, slabs, rows, columns = opacity.shape
-    pixels = np.concatenate([_display(light), opacity[..., None]], axis=-1)
+    pixels = np.concatenate([srgb.to_display(np.clip(light, 0.0, 1.0)), opacity[..., None]], axis=-1)
     pixels = pixels.transpose(1, 2, 0, 3, 4).reshape(slabs * rows, moments * columns, 4)
-    image = _image(name, pixels, is_data=False)
+    image = byte_image(name, pixels.astype(np.float32))
     u, v, _ = tree.separate(tree.attribute("sheet", output="Vector"))
     colour, alpha = _between(tree, smoke, image, u / moments, v)
     geometry = tree.node("ShaderNodeNewGeometry")
@@ -234,21 +236,3 @@ def _between(
     part = at - before
     (first, clear), (second, dense) = pair
     return tree.mix_colour(part, first, second), tree.mix(part, clear, dense)
-
-
-def _display(light: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Encode light 0..1 for bytes, which Blender decodes."""
-    linear = np.clip(light, 0.0, 1.0)
-    return np.where(linear < 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055).astype(
-        np.float32
-    )
-
-
-def _image(name: str, pixels: NDArray[np.float32], *, is_data: bool) -> bpy.types.Image:
-    """Create a picture in bytes from (rows, columns, 4), packed into the .blend file."""
-    rows, columns = pixels.shape[:2]
-    image = bpy.data.images.new(name, columns, rows, alpha=True, is_data=is_data)
-    image.alpha_mode = "CHANNEL_PACKED"
-    image.pixels.foreach_set(pixels.ravel())
-    image.pack()
-    return owned.mark(image)

@@ -124,7 +124,7 @@ def _middle(edges: Array) -> Array:
 
 
 def _filled(seen: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the light (x, y, z, 3) of opaque smoke in each cell; clear cells take that of smoke nearby."""
+    """Return the light (x, y, z, 3) of opaque smoke in each cell; clear cells take the light nearby."""
     total = seen.copy()
     mean = seen.sum(axis=(0, 1, 2))
     for _ in range(_REACH):

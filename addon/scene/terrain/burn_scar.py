@@ -17,7 +17,13 @@ _BENT = 1.75
 650 s in shrubs (assumed).
 """
 _TIMBER = 120.0  # s, residence time in timber
-_LIGHTENING = 600.0, 14_400.0  # s since the fire in timber, in which wind and dew bare the pale ash (assumed)
+CHAR = (0.012, 0.012, 0.0125), (0.048, 0.046, 0.043)
+"""Blackest char, and char mixed with soil."""
+ASH = (0.125, 0.123, 0.120)
+ASH_AGES = 600.0, 14_400.0
+"""s since the fire in timber, in which wind and dew bare the pale ash (assumed)."""
+EMBER_LIGHT = 1.8
+"""Radiance of embers at exposure 0."""
 _SEVERE = 500.0, 8000.0  # kW/m, intensities of a surface fire and of a crown fire, which consumes all litter
 _SCORCHED = 90.0, 220.0, 450.0, 1000.0
 """kW/m, intensities between which far crowns turn brown, and between which they burn. By Van Wagner (1973),
@@ -30,7 +36,7 @@ _WISP_ASH = (0.21, 0.205, 0.198)
 _STUBS = (0.135, 0.110, 0.066)  # straw below the flames
 _WIDE = 0.8  # minimum width of the flaming front, pixels; its coverage is reduced in proportion
 _PALE = 0.55  # factor on the emission of grass flames, which are low and thin
-_FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
+_FLAME_LIGHT = 10.0  # radiance at exposure 0
 _DIMMED = 0.3  # factor on the emission of the flaming front close by
 _BENEATH = 0.06  # factor on it below flames that are drawn as a field (by eye)
 _COALS = 0.04, 0.5  # m, pixel sizes between which coals of a few cm blend into patches
@@ -48,15 +54,15 @@ def scar_colour(tree: nodes.Tree, place: Place, *, logs: bool = False) -> nodes.
     With `logs`, white ash has the shape of burned-out logs close by.
     """
     tone = place.grain.noise(90.0 * place.scale, 4.0, 0.62)
-    dark = tree.input("Char Dark", (0.012, 0.012, 0.0125), "Blackest char", "Scar")
-    pale = tree.input("Char Light", (0.048, 0.046, 0.043), "Char mixed with soil", "Scar")
-    grey = tree.input("Ash Colour", (0.125, 0.123, 0.120), "Grey ash, some hours after the fire", "Scar")
+    dark = tree.input("Char Dark", CHAR[0], "Blackest char", "Scar")
+    pale = tree.input("Char Light", CHAR[1], "Char mixed with soil", "Scar")
+    grey = tree.input("Ash Colour", ASH, "Grey ash, some hours after the fire", "Scar")
     white = tree.input("White Ash", (0.320, 0.317, 0.312), "Ash of wood that burned out", "Scar")
     much = tree.input("Ash Amount", 0.6, "How much of the scar ash covers", "Scar", most=1.0)
     kept = tree.input("Scorch Amount", 0.75, "How brown the scar is at low fire severity", "Scar", most=1.0)
     char = tree.mix_colour(tone.smoothstep(0.38, 0.70), dark, pale)
     heavy = place.load.smoothstep(0.3, 3.0)
-    hours = (place.age * (_TIMBER / place.residence)).smoothstep(*_LIGHTENING)
+    hours = (place.age * (_TIMBER / place.residence)).smoothstep(*ASH_AGES)
     flakes = place.grain.noise(33.0 * place.scale, 4.0, 0.6)
     film = flakes + heavy * 0.04 + place.heat.smoothstep(*np.log(_SEVERE)) * 0.06
     film = film.smoothstep(0.57, 0.80) * hours.ramp(0.0, 1.0, 0.3, 1.0) * much * (place.ash / 0.6)
@@ -166,7 +172,7 @@ def fire_emission(
     bright = tree.input("Flame Brightness", _FLAME_LIGHT, "Radiance of the edge at exposure 0", "Fire")
     glowing = tree.input(
         "Ember Brightness",
-        _EMBER_LIGHT if shot.settings.fire.embers else 0.0,
+        EMBER_LIGHT if shot.settings.fire.embers else 0.0,
         "Radiance of the spots that glow in the ash, at exposure 0",
         "Fire",
     )

@@ -21,7 +21,7 @@ GRID = "grid"
 _OUT = 40.0  # rows beyond the run at which the apron's cells reach their full size: seven run cells
 _SOFT = 12.0  # rows beyond the run over which the apron's forest edges are softened
 _EDGE = 0.35  # kg/m2 of canopy fuel at which the shader has half forest and half open land
-LARGEST = 2048  # pixels along an image's side; larger grids are averaged to this size
+_LARGEST = 2048  # pixels along an image's side; larger grids are averaged to this size
 _FUEL, _FIRE, _FRONT, _COVER, _SCAR = (
     f"Firetwin Ground {name}" for name in ("Fuel", "Fire", "Front", "Cover", "Scar")
 )
@@ -58,7 +58,7 @@ def create_images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]
     `mapped` (1 where a map has data, so that nothing is procedural) are added.
     """
     ground = shot.ground
-    size = -(-max(ground.shape) // LARGEST)
+    size = block_size(ground.shape)
     known = {
         "canopy_fuel": _soften_edges(ground),
         "bare": ground.bare,
@@ -95,7 +95,7 @@ def texture_coordinates(
     The third coordinate is 0 within the run, and 1 on an apron of `margin` rows where its cells have full
     size.
     """
-    size = -(-max(shape) // LARGEST)
+    size = block_size(shape)
     rows, columns = (size * -(-count // size) for count in shape)
     beyond = [_lines_to_run(at, count, margin) for at, count in zip((row, column), shape, strict=True)]
     out = np.clip(np.maximum(*beyond) / _OUT, 0.0, 1.0) if margin else 0.0 * row
@@ -168,6 +168,11 @@ class Fields:
         return self._channels[image][channel]
 
 
+def block_size(shape: tuple[int, int]) -> int:
+    """Return the side of the blocks of points that a pixel of an image averages."""
+    return -(-max(shape) // _LARGEST)
+
+
 def downsample(field: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     """Average blocks of size x size points; edge values extend the field."""
     if size == 1:
@@ -198,7 +203,7 @@ def float_image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Ima
 def orthophoto_images(shot: Shot) -> list[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]:
     """Create images of the user's orthophotos, packed into the .blend file; finer ones after coarser ones."""
     return [
-        (picture, _colour_image(f"Firetwin Photo {number}", picture))
+        (picture, byte_image(f"Firetwin Photo {number}", picture.pixels / np.float32(255.0)))
         for number, picture in enumerate(orthophoto.pictures(shot), 1)
     ]
 
@@ -207,19 +212,22 @@ def land_use_images(shot: Shot) -> dict[str, list[tuple[orthophoto.OrthophotoIma
     """Create images of the user's land use, by `land_kinds.LAYERS`; finer ones after coarser ones."""
     return {
         layer: [
-            (picture, _colour_image(f"Firetwin Land Use {layer.title()} {number}", picture))
+            (
+                picture,
+                byte_image(f"Firetwin Land Use {layer.title()} {number}", picture.pixels / np.float32(255.0)),
+            )
             for number, picture in enumerate(drawn, 1)
         ]
         for layer, drawn in land_use.pictures(shot).items()
     }
 
 
-def _colour_image(name: str, picture: orthophoto.OrthophotoImage) -> bpy.types.Image:
-    """Create a colour image, packed into the .blend file."""
-    rows, columns = picture.pixels.shape[:2]
-    image = bpy.data.images.new(name, columns, rows, alpha=True)
+def byte_image(name: str, pixels: NDArray[np.float32], *, is_data: bool = False) -> bpy.types.Image:
+    """Create an image in bytes from values (rows, columns, 4) of 0..1, packed into the .blend file."""
+    rows, columns = pixels.shape[:2]
+    image = bpy.data.images.new(name, columns, rows, alpha=True, is_data=is_data)
     image.alpha_mode = "CHANNEL_PACKED"
-    image.pixels.foreach_set((picture.pixels / np.float32(255.0)).ravel())
+    image.pixels.foreach_set(pixels.ravel())
     image.pack()
     return owned.mark(image)
 

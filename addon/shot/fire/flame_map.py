@@ -253,7 +253,7 @@ def gap_margin(east: Array, north: Array, length: Array, scale: float, seed: int
 
 
 def clumping(shot: Any, east: Array, north: Array) -> Array:
-    """Return noise (n,) at scene points, m: crowns burn first in clumps, where it is high."""
+    """Return noise (n,) at scene points, m. Crowns burn first in clumps of high values."""
     scale = max(shot.full.front_scale, 0.3)
     return noise.fractal(east, north, _CLUMP * scale, 2, shot.full.settings.seed + 570)
 

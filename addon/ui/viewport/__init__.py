@@ -1,4 +1,4 @@
-"""Panel Viewport: film or live scene, what is not drawn and why, and the cost of a frame."""
+"""Panel Viewport: film or live scene, hidden parts with reasons, and the cost of a frame."""
 
 from . import facts, overlay, panel
 

@@ -1,4 +1,4 @@
-"""Stored facts about what the 3D views draw, so that drawing a panel counts nothing.
+"""Stored facts about the scene in 3D views, so that drawing a panel counts nothing.
 
 Counts and times change when the user measures. Reasons are read once after a change of the scene.
 """
@@ -34,7 +34,7 @@ def facts(scene: bpy.types.Scene) -> Facts:
 
 
 def count(scene: bpy.types.Scene) -> None:
-    """Count what the film scene and the live scene draw."""
+    """Measure the cost of the film scene and of the live scene."""
     found = facts(scene)
     found.cost.clear()
     for live in (False, True) if switch.has_live(scene) else (False,):

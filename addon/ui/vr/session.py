@@ -56,8 +56,8 @@ class VrProperties:
     )
     vr_live: bpy.props.BoolProperty(
         name="Live scene",
-        description="Show the live scene in the headset, if there is one; afterwards the 3D views show "
-        "what they showed before",
+        description="Show the live scene in the headset, if there is one; afterwards the 3D views return "
+        "to their former scene",
         default=True,
     )
     vr_landmark: bpy.props.StringProperty(name="Landmark", description="Landmark at which the viewer starts")
@@ -99,7 +99,7 @@ def eyes(scene: bpy.types.Scene, place: Vector) -> Vector:
 
 
 def restore() -> None:
-    """Give the session settings their former values, and show the film scene where it was shown."""
+    """Give the session settings their former values, and show the film scene if it was shown before."""
     settings = bpy.context.window_manager.xr_session_settings
     for name, value in _former.items():
         setattr(settings, name, value)
