@@ -86,8 +86,10 @@ def in_blender(
 ) -> int:
     """Build the scene and save it; return the number of frames whose smoke volume is missing."""
     from ..blender import viewport
+    from ..scene import built
     from ..scene.smoke import notice, volume_files
     from ..shot.settings import scene_file
+    from ..shot.stations import station_signs
     from ..smoke import bake
     from . import worker_scene
 
@@ -99,6 +101,8 @@ def in_blender(
         bake.bake(shot, progress)
     stage = worker_scene.build_scene(shot, progress, tell)
     volume_files.store_source(stage, scene_file.portable(source.settings()), source.beside)
+    landmarks = built.landmarks_text(station_signs.find_moving_points(shot))
+    built.store(stage, built.gather(shot, landmarks))
     notice.build(shot, stage)
     if live:
         _build_live(shot, stage.scene, progress, tell)

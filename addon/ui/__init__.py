@@ -25,6 +25,7 @@ from . import (
     navigation,
     open,
     other_runs_panel,
+    panel_state,
     place_names,
     preferences,
     properties,
@@ -99,6 +100,7 @@ def register() -> None:
     asset_library.register()
     translations.register()
     former_names.register()
+    panel_state.register()
     smoke_volumes.register()
     stations_panel.register()
     tile_credits.register()
@@ -124,6 +126,7 @@ def unregister() -> None:
     tile_credits.unregister()
     stations_panel.unregister()
     smoke_volumes.unregister()
+    panel_state.unregister()
     former_names.unregister()
     translations.unregister()
     asset_library.unregister()

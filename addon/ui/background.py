@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 
 from ..blender import owned
-from . import choice, queue, render, run, scene_file, working
+from . import choice, panel_state, queue, render, run, scene_file, working
 from .sidebar import SidebarPanel
 from .text import draw_paragraph
 
@@ -32,11 +32,9 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        settings = context.scene.firetwin
-        if not settings.first_time:
-            cls.poll_message_set("Build the scene first")
+        if not panel_state.require(cls, context):
             return False
-        if not scene_file.output_folder(settings):
+        if not scene_file.output_folder(context.scene.firetwin):
             cls.poll_message_set(render.NO_OUTPUT)
             return False
         return run.is_ready(cls, context)
@@ -81,7 +79,7 @@ class FIRETWIN_OT_f12_files(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not owned.is_ours(context.scene) or not context.scene.firetwin.first_time:
+        if not owned.is_ours(context.scene) or not panel_state.is_built(context.scene):
             cls.poll_message_set("Build the scene with Firetwin first")
             return False
         return working.is_editable(cls, context)
@@ -189,8 +187,8 @@ class FIRETWIN_PT_queue(SidebarPanel, bpy.types.Panel):
         from ..render import native_render as shown
 
         layout.operator(FIRETWIN_OT_render_background.bl_idname, icon="RENDER_ANIMATION")
-        built = owned.is_ours(context.scene) and context.scene.firetwin.first_time
-        on = bool(built) and shown.has_outputs(context.scene)
+        built = owned.is_ours(context.scene) and panel_state.is_built(context.scene)
+        on = built and shown.has_outputs(context.scene)
         row = layout.row()
         row.operator(FIRETWIN_OT_f12_files.bl_idname, icon="OUTPUT", depress=on).on = not on
         for index, item in enumerate(queue.items):

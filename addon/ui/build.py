@@ -22,9 +22,9 @@ from . import (
     choice,
     job,
     keys,
-    landmarks,
     live,
     panel_order,
+    panel_state,
     preferences,
     quality,
     run,
@@ -32,7 +32,6 @@ from . import (
     solve,
     target_scene,
     tile_facts,
-    time,
     view,
     working,
 )
@@ -139,11 +138,9 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     yield from build.steps(shot, owned.scene(uid), parts, told.append)
     yield from live.rebuild(shot, uid, parts)
     changed_settings.store_digests(owned.scene(uid).firetwin, then, parts)
-    _finish_build(owned.scene(uid), shot, parts, new)
+    _finish_build(owned.scene(uid), shot, moving, parts, new)
     if "smoke" in parts:
         smoke_volumes.store(owned.scene(uid), shot, chosen)
-    if moving is not None:
-        landmarks.store(owned.scene(uid).firetwin, moving)
     yield from solve.estimate_cost(uid)
     for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings.cameras), *told):
         yield Message(text, "WARNING")
@@ -167,7 +164,9 @@ def _read_shot(chosen: ShotSource, whole: bool) -> tuple[Shot, MovingPoints | No
     return shot, station_signs.find_moving_points(shot) if whole else None
 
 
-def _finish_build(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:
+def _finish_build(
+    scene: bpy.types.Scene, shot: Shot, moving: MovingPoints | None, parts: tuple[str, ...], new: bool
+) -> None:
     """Set engine and view layers of Firetwin's scene, the panel's state, and the clipping of the 3D views."""
     from ..blender import devices
     from ..render import credits, engine, layers
@@ -181,10 +180,9 @@ def _finish_build(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], ne
         devices.follow_preferences(shot.settings.render.device, scene)
     else:
         layers.complete(shot.settings, here, parts)
-    time.store_mapping(scene.firetwin, shot)
+    panel_state.store(scene, shot, moving)
     if "terrain" in parts:
         tile_facts.remember(scene.firetwin, shot)
-    view.store_run_size(scene.firetwin, shot.run)
     if new:
         view.align_views(scene)
     else:
@@ -220,8 +218,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene = context.scene
         view.restore_clipping(scene)
-        time.clear_mapping(scene.firetwin)
-        landmarks.clear(scene.firetwin)
+        panel_state.clear(scene)
         tile_facts.forget(scene.firetwin)
         changed_settings.clear(scene.firetwin)
         target_scene.remove(scene)

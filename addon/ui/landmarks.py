@@ -10,25 +10,9 @@ import numpy as np
 from mathutils import Vector
 from numpy.typing import NDArray
 
-from ..shot.stations.station_signs import MovingPoints
-
 HEAD, IGNITION = "Head of the fire", "Ignition"
 
-_KNOTS = 49  # stored positions of the head, interpolated linearly
 _WORDS = {"head": HEAD, "head of the fire": HEAD, "ignition": IGNITION}
-
-
-def store(panel: bpy.types.PropertyGroup, found: MovingPoints) -> None:
-    """Store the landmarks in the .blend file."""
-    frames = np.unique(np.linspace(0, len(found.head) - 1, _KNOTS).round().astype(int))
-    ignition = None if found.ignition is None else np.round(found.ignition, 1).tolist()
-    head = np.round(found.head[frames], 1).tolist()
-    panel.landmarks = json.dumps({"ignition": ignition, "frames": (frames + 1).tolist(), "head": head})
-
-
-def clear(panel: bpy.types.PropertyGroup) -> None:
-    """Delete the landmarks, because nothing is built."""
-    panel.landmarks = ""
 
 
 def list_names(panel: bpy.types.PropertyGroup) -> list[str]:

@@ -9,7 +9,7 @@ import bpy
 from ..blender import owned
 from ..scene.live import switch
 from ..shot.shot import Shot
-from . import choice, working
+from . import choice, panel_state, working
 from .job import InThread, Message, Steps
 from .working import Working
 
@@ -20,10 +20,7 @@ def _is_built(operator: type[bpy.types.Operator], context: bpy.types.Context) ->
     """Return whether the scene has something built; otherwise set the poll message."""
     if not working.is_editable(operator, context) or not working.is_object_mode(operator, context):
         return False
-    if not owned.has_data(context.scene):
-        operator.poll_message_set("Build the scene first")
-        return False
-    return True
+    return panel_state.require(operator, context)
 
 
 class FIRETWIN_OT_live(Working, bpy.types.Operator):
@@ -98,7 +95,7 @@ def rebuild(shot: Shot, uid: int, parts: tuple[str, ...]) -> Steps:
 
 def draw(layout: bpy.types.UILayout, scene: bpy.types.Scene) -> None:
     """Draw the button that builds the live scene, or that switches to it and back."""
-    if not owned.has_data(scene):
+    if not panel_state.is_built(scene):
         return
     row = layout.row(align=True)
     if not switch.has_live(scene):

@@ -12,7 +12,7 @@ from ..shot.cameras import rigs, rotation
 from ..shot.cameras.lenses import LENSES
 from ..shot.cameras.rigs._view import View
 from ..shot.settings import Camera
-from . import camera_edits, camera_list, choice, job, keys, run, working
+from . import camera_edits, camera_list, choice, job, keys, panel_state, run, working
 from .job import InThread, Message, Steps
 from .sidebar import SidebarPanel
 from .working import Working
@@ -72,9 +72,7 @@ def can_navigate(cls: type[bpy.types.Operator], context: bpy.types.Context) -> b
     """Return whether there is a built scene to navigate; otherwise set the poll message."""
     if not working.is_editable(cls, context):
         return False
-    if not context.scene.firetwin.first_time:
-        cls.poll_message_set("Build the scene first")
-    return bool(context.scene.firetwin.first_time)
+    return panel_state.require(cls, context)
 
 
 def has_editable_camera(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
@@ -262,7 +260,7 @@ class FIRETWIN_PT_flying(SidebarPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return bool(context.scene.firetwin.first_time)
+        return panel_state.is_built(context.scene)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, scene = self.layout, context.scene

@@ -13,6 +13,7 @@ from pathlib import Path
 import bpy
 
 from .. import files
+from ..blender import compat
 from ..errors import Error
 from ..shot.schema import validate
 from ..shot.settings import Settings, scene_file, toml_update
@@ -41,7 +42,7 @@ def read_settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Se
     return whole
 
 
-def fill(scene: bpy.types.Scene, whole: Settings) -> None:
+def fill(scene: bpy.types.Scene, whole: Settings, inspect: bool = True) -> None:
     """Set the panel of a scene to these settings, and inspect the run."""
     panel = scene.firetwin
     whole = scene_file.with_absolute_tilesets(whole)
@@ -49,7 +50,11 @@ def fill(scene: bpy.types.Scene, whole: Settings) -> None:
     camera_list.fill(panel, whole.cameras)
     other_runs.fill(panel, whole.runs)
     panel.cache = str(whole.cache.absolute())
-    panel.run = str(whole.run.absolute())
+    run = str(whole.run.absolute())
+    if inspect:
+        panel.run = run
+    else:  # without its update callback
+        compat.stored_properties(scene)["firetwin"]["run"] = run
 
 
 def output_folder(panel: bpy.types.PropertyGroup, *inside: str) -> str:

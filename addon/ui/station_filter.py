@@ -13,7 +13,7 @@ from ..run import times
 from ..stations import arguments
 from ..stations.query import Query
 from ..stations.records import MODES
-from . import keys, station_data, station_sync, time
+from . import keys, panel_state, station_data, station_sync, time
 from .station_data import Loaded
 
 NOWHERE, IGNITION, HEAD = "nowhere", "ignition", "head"
@@ -77,7 +77,7 @@ class FIRETWIN_PG_stationfilter(bpy.types.PropertyGroup):
 
 def shown_time(panel: bpy.types.PropertyGroup) -> datetime | None:
     """Return the time of the current frame, UTC; None before a build."""
-    return time.shown_time(panel) if panel.first_time else None
+    return time.shown_time(panel) if panel_state.is_built(panel.id_data) else None
 
 
 def query(panel: bpy.types.PropertyGroup, loaded: Loaded) -> Query:
@@ -89,7 +89,7 @@ def query(panel: bpy.types.PropertyGroup, loaded: Loaded) -> Query:
         A list of types is invalid, or a filter needs missing data.
     """
     chosen, near = panel.station_filter, _near(panel, loaded)
-    if chosen.available and not panel.first_time:
+    if chosen.available and not panel_state.is_built(panel.id_data):
         raise Error("Available then: build the scene first, so that a time is shown")
     try:
         types = arguments.parse_types(chosen.types) if chosen.types.strip() else ()

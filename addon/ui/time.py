@@ -12,8 +12,7 @@ from .. import timecode
 from ..run import times
 from ..shot.schema import fields
 from ..shot.sections import Time
-from ..shot.shot import Shot
-from . import job, keys, rows, run, working
+from . import job, keys, panel_state, rows, run, working
 from .sidebar import SidebarPanel
 from .text import labelled_row
 
@@ -27,19 +26,6 @@ def position(settings: bpy.types.PropertyGroup) -> float:
 def go_to(settings: bpy.types.PropertyGroup, value: float) -> None:
     """Go to the frame nearest to a position."""
     settings.id_data.frame_current = 1 + round(value * max(settings.frames - 1, 0))
-
-
-def store_mapping(settings: bpy.types.PropertyGroup, shot: Shot) -> None:
-    """Store the mapping between frames and model time."""
-    settings.first_time = shot.utc(1).isoformat()
-    settings.seconds_per_frame = shot.frames.step
-    settings.frames, settings.zone = shot.frames.count, shot.settings.time.zone
-
-
-def clear_mapping(settings: bpy.types.PropertyGroup) -> None:
-    """Delete the mapping, because nothing is built."""
-    for name in ("first_time", "seconds_per_frame", "frames", "zone"):
-        settings.property_unset(name)
 
 
 def shown_time(settings: bpy.types.PropertyGroup) -> datetime:
@@ -61,10 +47,7 @@ class FIRETWIN_OT_jump(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.scene.firetwin.first_time:
-            cls.poll_message_set("Build the scene first")
-            return False
-        return True
+        return panel_state.require(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -180,7 +163,7 @@ class FIRETWIN_PT_time(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.firetwin, self.layout
-        if settings.first_time:
+        if panel_state.is_built(context.scene):
             _draw_clock(layout, settings)
         facts = run.parse_facts(settings.facts) if settings.facts else {"first": "", "last": ""}
         ends = []

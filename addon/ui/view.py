@@ -6,13 +6,11 @@ from collections.abc import Iterator, Sequence
 
 import bpy
 import numpy as np
-from firetwin_core.run import Run
 from mathutils import Euler
 from numpy.typing import NDArray
 
 from ..blender import viewport
-from ..run import areas
-from . import working
+from . import panel_state, working
 
 _TILT = 0.9  # rad from straight down
 
@@ -69,13 +67,6 @@ def _overlook(region: bpy.types.RegionView3D, middle: Sequence[float], extent: f
     region.view_rotation = Euler((_TILT, 0.0, 0.0)).to_quaternion()
 
 
-def store_run_size(settings: bpy.types.PropertyGroup, run: Run) -> None:
-    """Store the size of the run."""
-    dx, dy = areas.spacing(run.latitude, run.longitude)
-    settings.extent = max(dx * len(run.longitude), dy * len(run.latitude))
-    settings.height = float(np.nanmean(run.elevation))
-
-
 class FIRETWIN_OT_view(bpy.types.Operator):
     """View the scene and adapt the clipping distance to it"""
 
@@ -98,10 +89,7 @@ class FIRETWIN_OT_view(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.scene.firetwin.first_time:
-            cls.poll_message_set("Build the scene first")
-            return False
-        return True
+        return panel_state.require(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:

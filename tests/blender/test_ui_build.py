@@ -200,6 +200,7 @@ def test_the_king_fire_is_made_here_and_opened(panel, run_folder, tmp_path, monk
 
 
 def test_a_dated_moment_is_shown_and_bounds_the_window(opened):
+    owned.stage(bpy.context.scene)
     opened.first_time, opened.seconds_per_frame, opened.frames = "2014-09-17T21:00:00+00:00", 1800.0, 3
     bpy.ops.firetwin.jump(moment="2014-09-17T21:29:00Z")
     assert bpy.context.scene.frame_current == 2

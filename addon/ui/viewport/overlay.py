@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 
 from ...scene.live import switch
-from .. import frame_clock
+from .. import frame_clock, panel_state
 from ..frame_clock import FrameClock
 from .facts import Facts, facts
 
@@ -33,7 +33,7 @@ def _draw() -> None:
 
     context = bpy.context
     scene, overlay = context.scene, context.space_data.overlay
-    if not scene.firetwin.viewport_overlay or not scene.firetwin.first_time or not overlay.show_overlays:
+    if not scene.firetwin.viewport_overlay or not overlay.show_overlays or not panel_state.is_built(scene):
         return
     if not context.screen.is_animation_playing:
         _clock.clear()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ...scene.live import build, switch
-from .. import frame_clock, navigation, working
+from .. import frame_clock, navigation, panel_state, working
 from ..sidebar import SidebarPanel
 from ..text import draw_paragraph
 from . import facts, redraws
@@ -68,7 +68,7 @@ class FIRETWIN_PT_viewport(SidebarPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return bool(context.scene.firetwin.first_time)
+        return panel_state.is_built(context.scene)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, scene = self.layout, context.scene

@@ -16,6 +16,8 @@ from typing import Any, NamedTuple
 
 import bpy
 
+from .. import panel_state
+
 NAME = "firetwin"
 _LEFT, _RIGHT = "/user/hand/left", "/user/hand/right"
 _PRESSED = 0.5  # of the trigger's or thumbstick's range
@@ -117,7 +119,7 @@ def _add_actions(_: object) -> None:
     """Create and activate the actions in a session that begins in a built scene."""
     context = bpy.context
     state = context.window_manager.xr_session_state
-    if state is None or not context.scene.firetwin.first_time:
+    if state is None or not panel_state.is_built(context.scene):
         return
     actions = create_map(state)
     if not state.action_set_create(context, actions):

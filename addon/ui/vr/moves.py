@@ -7,7 +7,7 @@ import time
 import bpy
 from mathutils import Quaternion
 
-from .. import working
+from .. import panel_state, working
 from . import landmark_list, session
 
 _SECONDS = 10.0  # s to run through the whole film with the thumbstick at its end
@@ -18,7 +18,7 @@ def is_in_session(cls: type[bpy.types.Operator], context: bpy.types.Context) -> 
     if not session.is_running():
         cls.poll_message_set("Start VR first")
         return False
-    return bool(context.scene.firetwin.first_time)
+    return panel_state.require(cls, context)
 
 
 class FIRETWIN_OT_vr_play(bpy.types.Operator):

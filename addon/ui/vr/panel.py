@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from .. import working
+from .. import panel_state, working
 from ..sidebar import SidebarPanel
 from . import display, landmark_list, session
 
@@ -31,7 +31,7 @@ class FIRETWIN_OT_vr_start_at(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return bool(context.scene.firetwin.first_time)
+        return panel_state.is_built(context.scene)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -54,7 +54,7 @@ class FIRETWIN_PT_vr(SidebarPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return bool(context.scene.firetwin.first_time)
+        return panel_state.is_built(context.scene)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, panel = self.layout, context.scene.firetwin
