@@ -1,7 +1,6 @@
 """Costs of film and live scene in 3D views, counted without a graphics card."""
 
 import bpy
-import pytest
 from firetwin.blender import owned
 from firetwin.scene.live import cost, switch
 from live_scene import *  # noqa: F403
@@ -44,21 +43,3 @@ def test_measuring_changes_nothing(live_stage):
     assert live.instances == 0
     assert 0 < live.triangles <= BUDGET
     assert live.texture_bytes > 0
-
-
-@pytest.mark.parametrize("name", ["Forest", "Terrain"])
-def test_hidden_parts_are_told(live_stage, name):
-    scene = live_stage.scene
-    assert not any(name in text for text in cost.why_not_drawn(scene))
-    part = next(child for child in live_stage.root.children if owned.is_ours(child, name))
-    part.hide_viewport = True
-    assert any(text.startswith(f"{name} is hidden") for text in cost.why_not_drawn(scene))
-    part.hide_viewport = False
-    switch.show_live(scene, True)
-    assert cost.why_not_drawn(scene) == [
-        "The live scene is shown in place of the film's ground, trees, fire and smoke"
-    ]
-
-
-def test_without_a_scene_there_is_a_remedy(scene):
-    assert cost.why_not_drawn(scene) == ["Nothing is built in this scene: press Build scene"]

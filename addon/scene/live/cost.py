@@ -13,8 +13,6 @@ from dataclasses import dataclass
 
 import bpy
 
-from ...blender import owned
-from ..smoke import volume_files
 from . import switch
 
 
@@ -63,28 +61,6 @@ def measure(scene: bpy.types.Scene, live: bool | None = None) -> Cost:
         return _measure(scene)
     finally:
         switch.show_live(scene, before)
-
-
-def why_not_drawn(scene: bpy.types.Scene) -> list[str]:
-    """Return a sentence for each part of the scene that 3D views do not show as renders do."""
-    stage = owned.find_stage(scene)
-    if stage is None:
-        return ["Nothing is built in this scene: press Build scene"]
-    if switch.is_live(scene):
-        return ["The live scene is shown in place of the film's ground, trees, fire and smoke"]
-    told = []
-    for part in stage.root.children:
-        name = str(part.get(owned.MARK, ""))
-        if name != switch.COLLECTION and part.hide_viewport and part.all_objects:
-            told.append(f"{name} is hidden: its collection is disabled in viewports")
-    for obj in stage.root.all_objects:
-        if not owned.is_ours(obj) or obj.hide_render:
-            continue
-        if obj.hide_viewport and obj.type == "MESH":
-            told.append(f"{obj.name} is replaced by fewer plants: 3D views redraw all of them too slowly")
-    if volume_files.missing(stage, [scene.frame_current]):
-        told.append(f"Smoke of frame {scene.frame_current} has no volume yet: press Smoke of frame")
-    return told
 
 
 def _measure(scene: bpy.types.Scene) -> Cost:

@@ -15,7 +15,6 @@ from ...blender.owned import Stage
 COLLECTION = "Live"
 REPLACED = ("Terrain", "Forest", "Fire", "Smoke")
 """Parts of the film's scene that the live scene replaces."""
-_SHOWN = "firetwin_live"  # custom property of the live collection: 1 if 3D views show it
 
 
 def collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
@@ -33,7 +32,7 @@ def has_live(scene: bpy.types.Scene) -> bool:
 def is_live(scene: bpy.types.Scene) -> bool:
     """Return True if 3D views show the live scene."""
     found = collection(scene)
-    return found is not None and bool(found.all_objects) and bool(found.get(_SHOWN))
+    return found is not None and bool(found.all_objects) and not found.hide_viewport
 
 
 def show_live(scene: bpy.types.Scene, on: bool) -> None:
@@ -41,7 +40,6 @@ def show_live(scene: bpy.types.Scene, on: bool) -> None:
     stage, live = owned.stage(scene), collection(scene)
     if live is None or not has_live(scene):
         return
-    live[_SHOWN] = int(on)
     live.hide_render, live.hide_viewport = True, not on
     for name in REPLACED:
         for part in _parts(stage, name):
@@ -53,7 +51,6 @@ def empty(stage: Stage) -> bpy.types.Collection:
     show_live(stage.scene, False)
     live = stage.part(COLLECTION)
     live.hide_render = live.hide_viewport = True
-    live[_SHOWN] = 0
     return live
 
 

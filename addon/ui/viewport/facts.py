@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import bpy
 
 from ...blender import viewport
-from ...scene.live import cost, switch
+from ...scene.live import cost, hidden, switch
 
 
 @dataclass
@@ -24,8 +24,8 @@ class Facts:
 
 _known: dict[int, Facts] = {}
 """Facts of scenes, by `session_uid`."""
-_reasons: dict[tuple[int, int], list[str]] = {}
-"""Reasons why parts are not drawn, by scene and frame."""
+_reasons: dict[tuple[int, int, str], list[str]] = {}
+"""Reasons why parts are not drawn, by scene, frame and view layer."""
 
 
 def facts(scene: bpy.types.Scene) -> Facts:
@@ -41,12 +41,12 @@ def count(scene: bpy.types.Scene) -> None:
         found.cost[live] = cost.measure(scene, live)
 
 
-def reasons(scene: bpy.types.Scene) -> list[str]:
-    """Return why parts of the scene are not drawn; it is read once after a change."""
-    key = scene.session_uid, scene.frame_current
+def reasons(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> list[str]:
+    """Return why 3D views of a view layer do not draw parts of the scene; it is read once after a change."""
+    key = scene.session_uid, scene.frame_current, layer.name
     if key not in _reasons:
         _reasons.clear()
-        _reasons[key] = cost.why_not_drawn(scene)
+        _reasons[key] = hidden.why_not_drawn(scene, layer)
     return _reasons[key]
 
 

@@ -79,7 +79,7 @@ class FIRETWIN_PT_viewport(SidebarPanel, bpy.types.Panel):
         if not switch.has_live(scene):
             draw_paragraph(context, layout.column(align=True), _NO_LIVE, "INFO")
         column = layout.column(align=True)
-        for reason in (*facts.view_reasons(context.space_data), *facts.reasons(scene)):
+        for reason in (*facts.view_reasons(context.space_data), *facts.reasons(scene, context.view_layer)):
             draw_paragraph(context, column, reason, "HIDE_ON")
         layout.operator("firetwin.viewport_measure", icon="TIME")
         _draw_cost(layout, facts.facts(scene))
