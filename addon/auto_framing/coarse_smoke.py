@@ -25,14 +25,14 @@ from ..smoke.integrator import Integrator
 
 _WIDER = (2, 3, 4, 6, 8)  # cells of the shot's domain along a coarse cell: the first with few enough columns
 _FINER = (3, 2)  # cells of the nest along a coarse cell: the first with few enough columns
-_COLUMNS = (5000, 12_000)  # columns of the coarse domain and of its nest at most: seconds of work
+_COLUMNS = (9000, 24_000)  # columns of the coarse domain and of its nest at most: three seconds of work
 _SPIN_UP = 0.6  # of the shot's, as smoke far from the fire is before no camera (assumed)
 _LONGER = 2  # steps of the shot's domain in a coarse step at most; longer ones are unstable
 _NARROWEST = 20  # coarse cells along a side at least, which the sponge at the sides needs
 _LOW = 8  # lowest levels, not joined; above, two become one
 _ROUND = 4  # coarse cells around the heat in the nest
 _EDGE = 2  # coarse cells between the nest and the sides of the coarse domain at least
-_LEAD = 150.0  # s, on cells of `smoke_scale.REFERENCE`, that the nest is solved before a moment
+_LEAD = 200.0  # s, on cells of `smoke_scale.REFERENCE`, that the nest is solved before a moment
 _VOXELS = (1.0, 0.5)  # edge of a drawn voxel over a cell, outside of the nest and in it
 _STEP = 2.0  # voxels, ray step
 _OPAQUE = 8.0  # optical depth at which a ray ends
@@ -92,6 +92,7 @@ def _draw(shot: Shot, frames: list[int]) -> dict[int, list[volume.Bricks]]:
         outer, nest = (_domain(shot, box, each, Path(folder)) for each in (box, _nest_box(shot, box)))
         painters = _painters(coarse, outer, nest)
         lead, integrator = shot.scale.time(_LEAD), Integrator(coarse, [outer], Event(), 1)
+        integrator.domains.append(nest)  # so that it has sources; it starts below
         for frame in frames:
             time = float(shot.frames.times[frame])
             if time - integrator.now > 2.0 * lead:
@@ -107,10 +108,12 @@ def _draw(shot: Shot, frames: list[int]) -> dict[int, list[volume.Bricks]]:
 
 
 def _advance(integrator: Integrator, time: float) -> None:
-    """Advance to a model time (s) in even steps."""
+    """Advance to a model time (s) in even steps, with the sources of their times."""
     left = time - integrator.now
     count = math.ceil(left / integrator.scale.step - 1e-9)
     for _ in range(count):
+        reached = np.searchsorted(integrator.ends, integrator.solvers[0].time + 1e-6, "right")
+        integrator.step = min(int(reached), len(integrator.steps)) - 1
         integrator.advance(left / count)
 
 

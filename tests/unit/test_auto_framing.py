@@ -26,6 +26,7 @@ from firetwin.shot.cameras.rigs.chase import Chase
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import Camera, Settings, scene_file
 from firetwin.shot.shot import Shot
+from firetwin.smoke import integrator, snapshots
 from small_run import small_fields
 
 HOURS = tuple(3600.0 * np.arange(0.0, 25.0, 6.0))
@@ -153,6 +154,24 @@ def test_coarse_smoke_drifts_with_the_wind(fit_of):
     high = np.array([0.0, 0.0, 2.0 * moving.size])
     assert moving.smoke.depth(2, lee + high, lee[None])[0] > 1.0
     assert moving.smoke.depth(2, luv + high, luv[None])[0] < 0.01
+
+
+def test_coarse_smoke_and_its_nest_have_the_heat_and_smoke_of_the_fire(fit_of, monkeypatch):
+    """The heat once stayed at the tenth of the first seconds, and the nest had none: smoke did not rise."""
+    found, run = fit_of("grass")
+    shot, given, save = Shot(found.settings, run), [], snapshots.save
+
+    def note(path, solver, drift):
+        given.append((solver.mass()["emitted"], solver.heat()["given"]))
+        save(path, solver, drift)
+
+    monkeypatch.setattr(coarse_smoke.snapshots, "save", note)
+    coarse_smoke.CoarseSmoke(shot, [0])
+    fire = shot.fire.sources(shot.frames.first)
+    lead = shot.scale.time(coarse_smoke._LEAD)
+    (_, _), (smoke, heat) = given
+    assert smoke == pytest.approx(lead * fire.smoke.sum(), rel=0.3)
+    assert heat == pytest.approx(integrator.CONVECTED * lead * fire.power.sum(), rel=0.3)
 
 
 def tried(share=1.0, clear=1.0, veil=0.0, liking=0.0):
