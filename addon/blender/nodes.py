@@ -308,29 +308,31 @@ class Tree:
         """Write a colour (or a number) to the AOV of this name, in view layers that have it."""
         self.node("ShaderNodeOutputAOV", {"Color" if colour else "Value": value}, aov_name=name)
 
-    def surface(self, shader: Any) -> None:
-        """Connect `shader` to the surface output of this material or world."""
+    def surface(self, shader: Any, displacement: Any = None) -> None:
+        """Connect `shader` to the surface output of this material or world, and a material's displacement."""
         if self.material is not None:
-            self._show("Surface", shader)
+            self._show({"Surface": shader} | ({} if displacement is None else {"Displacement": displacement}))
             return
         self.node("ShaderNodeOutputWorld", {"Surface": shader})
         layout.arrange(self.node_tree)
 
     def volume(self, shader: Any) -> None:
         """Connect `shader` to the volume output of this material."""
-        self._show("Volume", shader)
+        self._show({"Volume": shader})
 
     def geometry(self, value: Any) -> None:
         """Connect the output of a geometry node group."""
         self.finish({"Geometry": value})
 
-    def _show(self, what: str, shader: Any) -> None:
-        self.node_tree.interface.new_socket(what, in_out="OUTPUT", socket_type="NodeSocketShader")
-        self.finish({what: shader})
+    def _show(self, outputs: Mapping[str, Any]) -> None:
+        for what in outputs:
+            kind = "NodeSocketVector" if what == "Displacement" else "NodeSocketShader"
+            self.node_tree.interface.new_socket(what, in_out="OUTPUT", socket_type=kind)
+        self.finish(outputs)
         around = Tree(compat.node_tree(self.material))
-        shown = around.output("ShaderNodeGroup", name=what, node_tree=self.node_tree)
-        shown.socket.node.width = 2.0 * layout.WIDE - layout.GAP
-        output = around.node("ShaderNodeOutputMaterial", {what: shown})
+        group = around.node("ShaderNodeGroup", node_tree=self.node_tree)
+        group.width = 2.0 * layout.WIDE - layout.GAP
+        output = around.node("ShaderNodeOutputMaterial", {what: around.pick(group, what) for what in outputs})
         output.location = 2.0 * layout.WIDE, 0.0
 
     def finish(self, outputs: Mapping[str, Any]) -> None:

@@ -30,16 +30,22 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     town_lights.build(shot, collection, np.reshape(towns, (-1, 3)))
     looks = [material.build(shot, name, colour) for name, colour in material.COLOURS.items()]
     library = owned.library("Place Names")
-    rows = facing.tiers(shot, places.position)
     size = lettering.legible_size(shot, settings.size)
-    rim = lettering.rim(shot, size)
-    with lettering.typeface() as font:
-        for k, (name, row) in enumerate(zip(places.names, rows, strict=True)):
-            parts = _label(name, _STEM + _TIER * int(row), rim, font)
-            mesh = lettering.mesh(f"Firetwin Place {k:05d}", parts, looks)
-            lettering.camera_rays_only(owned.add(library, f"Place {k:05d}", mesh))
+    for k, parts in enumerate(forms(shot, places, size)):
+        mesh = lettering.mesh(f"Firetwin Place {k:05d}", parts, looks)
+        lettering.camera_rays_only(owned.add(library, f"Place {k:05d}", mesh))
     group = facing.node_group(shot, "Labels", library, size, settings.distance)
     return facing.points(collection, "Places", places.position, group)
+
+
+def forms(shot: Shot, places: labels.Labels, size: float) -> list[list[Part]]:
+    """Make the parts of each label, for letters of this height (picture heights)."""
+    rows, rim = facing.tiers(shot, places.position), lettering.rim(shot, size)
+    with lettering.typeface() as font:
+        return [
+            _label(name, _STEM + _TIER * int(row), rim, font)
+            for name, row in zip(places.names, rows, strict=True)
+        ]
 
 
 def _label(text: str, stem: float, rim: float, font: bpy.types.VectorFont | None) -> list[Part]:

@@ -120,7 +120,7 @@ def points(
 ) -> bpy.types.Object:
     """Add an object with points (n, 3), on which the node group places the objects that face the camera."""
     data = create_mesh(f"Firetwin {name}", position)
-    obj = owned.add(collection, name, data)
+    obj = owned.add(collection, name, data, name)
     lettering.camera_rays_only(obj)
     modifier = obj.modifiers.new(group.name, "NODES")
     modifier.node_group = group

@@ -34,10 +34,9 @@ def build(
         Domain of the attribute `FADE`: INSTANCER (the point of the instance) or GEOMETRY.
     """
     material, tree = nodes.material(f"Firetwin {title} {name}", colour)
-    stops = float(exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0])
     shown = tree.input("Colour", colour, "Colour in the picture", "Label")
     bright = tree.input(
-        "Brightness", _LIGHT * 2.0**-stops, "Radiance, compensated for the exposure of the picture", "Label"
+        "Brightness", brightness(shot), "Radiance, compensated for the exposure of the picture", "Label"
     )
     solid = 1.0 - _CLEAR if name == RIM else _SOLID
     part = tree.attribute(FADE, whose) * solid
@@ -47,6 +46,11 @@ def build(
     tree.surface(tree.add_shader(tree.emission(shown, bright * part), clear))
     material.cycles.emission_sampling = "NONE"
     return material
+
+
+def brightness(shot: Shot) -> float:
+    """Return the radiance of white letters: equally bright in pictures of all exposures."""
+    return _LIGHT * 2.0 ** -float(exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0])
 
 
 def write_place(tree: nodes.Tree, part: nodes.Value | float) -> None:

@@ -9,7 +9,7 @@ import bpy
 from ...blender import node_updates, owned
 from ...progress import MessageCallback, Progress, no_message, silent
 from ...shot.shot import Shot
-from . import flames, forest, ground, smoke, switch
+from . import flames, forest, ground, labels, smoke, switch
 
 TRIANGLES = 1_200_000
 """Budget of triangles."""
@@ -42,12 +42,15 @@ def steps(
     try:
         yield "live smoke"
         baked = smoke.bake(shot.full, stage(), progress, tell)
-        yield "live ground"
+        yield "live labels and ground"
         live = switch.empty(stage())
         shadow = smoke.shade(baked) if baked else None
         if baked:
             sheets = smoke.build(stage(), live, baked)
             budget -= 2 * sum(len(each.data.polygons) for each in sheets)
+        lettered = labels.build(shot, stage(), live)
+        if lettered:
+            budget -= len(lettered.data.loops) - 2 * len(lettered.data.polygons)
         base = ground.build(shot, stage(), live, round(_GROUND * budget), shadow)
         spare = budget - len(base.data.polygons)
         yield "live forest and flames"

@@ -15,6 +15,9 @@ from ...blender.owned import Stage
 COLLECTION = "Live"
 REPLACED = ("Terrain", "Forest", "Fire", "Smoke")
 """Parts of the film's scene that the live scene replaces."""
+LABELS = "Live Labels"
+"""Mark of the object that replaces the film's labels and signs."""
+_LETTERED = ("Places", "Signs")  # marks of these objects
 
 
 def collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
@@ -44,6 +47,10 @@ def show_live(scene: bpy.types.Scene, on: bool) -> None:
     for name in REPLACED:
         for part in _parts(stage, name):
             part.hide_viewport = on
+    lettered = any(owned.is_ours(obj, LABELS) for obj in live.all_objects)
+    for obj in list(stage.root.all_objects):
+        if any(owned.is_ours(obj, name) for name in _LETTERED):
+            obj.hide_viewport = on and lettered
 
 
 def empty(stage: Stage) -> bpy.types.Collection:

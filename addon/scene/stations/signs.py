@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
 from ...blender import owned
 from ...shot.shot import Shot
@@ -33,23 +35,38 @@ def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Sign]) -
     """Build "Firetwin Signs"."""
     settings, looks = shot.settings.stations, material.signs(shot)
     library = owned.library("Station Signs")
-    position = shot.ground.point([each.latitude for each in shown], [each.longitude for each in shown])
-    rows = facing.tiers(shot, position)
+    position = places(shot, shown)
     size = lettering.legible_size(shot, settings.size)
-    small = max(_SMALL, lettering.legible_size(shot, 0.0) / size)
-    forms = [fitting(full(sign), small, _HIGH / size) for sign in shown], [short(sign) for sign in shown]
-    highest = [max(plate_height(lines, small) for lines in form) for form in forms]
-    tiers = [min(each + _APART, _MOST / size) for each in highest]
-    with lettering.typeface() as font:
-        for k, (sign, row) in enumerate(zip(shown, rows, strict=True)):
-            for number, form, tier in zip((k, k + len(shown)), forms, tiers, strict=True):
-                low = _STEM / size + tier * int(row)
-                parts = plate(form[k], low, material.accent(sign.origin), font, small)
-                mesh = lettering.mesh(f"Firetwin Sign {number:05d}", parts, looks)
-                lettering.camera_rays_only(owned.add(library, f"Sign {number:05d}", mesh))
+    near, far = forms(shot, shown, position, size)
+    for number, parts in enumerate(near + far):
+        mesh = lettering.mesh(f"Firetwin Sign {number:05d}", parts, looks)
+        lettering.camera_rays_only(owned.add(library, f"Sign {number:05d}", mesh))
     detail = settings.detail, len(shown)
     group = facing.node_group(shot, material.TITLE, library, size, settings.distance, detail)
     return facing.points(collection, "Signs", position, group)
+
+
+def places(shot: Shot, shown: Sequence[Sign]) -> NDArray[np.float64]:
+    """Return the positions (n, 3) of signs on the ground, m."""
+    return shot.ground.point([each.latitude for each in shown], [each.longitude for each in shown])
+
+
+def forms(
+    shot: Shot, shown: Sequence[Sign], position: NDArray[np.float64], size: float
+) -> tuple[list[list[Part]], list[list[Part]]]:
+    """Make the parts of signs, with all lines and with the name alone, for letters of this height."""
+    rows = facing.tiers(shot, position)
+    small = max(_SMALL, lettering.legible_size(shot, 0.0) / size)
+    lines = [fitting(full(sign), small, _HIGH / size) for sign in shown], [short(sign) for sign in shown]
+    made: tuple[list[list[Part]], list[list[Part]]] = ([], [])
+    with lettering.typeface() as font:
+        for form, parts in zip(lines, made, strict=True):
+            highest = max((plate_height(each, small) for each in form), default=0.0)
+            tier = min(highest + _APART, _MOST / size)
+            for sign, text, row in zip(shown, form, rows, strict=True):
+                low = _STEM / size + tier * int(row)
+                parts.append(plate(text, low, material.accent(sign.origin), font, small))
+    return made
 
 
 def full(sign: Sign) -> list[tuple[str, bool]]:
