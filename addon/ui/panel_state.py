@@ -81,9 +81,14 @@ def show_all(*_: object) -> None:
 
 
 def register() -> None:
-    """Show the facts of each file after it was opened, and of the open file."""
+    """Show the facts of each file after it was opened, and of the open file.
+
+    Blender hides its data while it enables add-ons. Without a window it runs no timers, and hangs at its end
+    if it has one.
+    """
     bpy.app.handlers.load_post.append(show_all)
-    bpy.app.timers.register(show_all, first_interval=0.0)  # Blender hides its data while it enables add-ons
+    if not bpy.app.background:
+        bpy.app.timers.register(show_all, first_interval=0.0)
 
 
 def unregister() -> None:
