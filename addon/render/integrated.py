@@ -94,7 +94,7 @@ class IntegratedRenderer:
         flames, outline = self._flames(pictures[first].frame)
         distance = self._measure_flames(outline) if "rgb" in pictures else None
         with self.cost.part(frame_cost.SURFACES):
-            rendered = surfaces.render(self.scene, [first], part)
+            rendered = surfaces.render(self.scene, [first], part, infrared="thermal" in pictures)
             wanted = self.has_text and "rgb" in pictures
             text = text_layer.render(self.scene, part) if wanted else {}
         eyes = [

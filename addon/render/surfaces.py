@@ -22,7 +22,11 @@ _ORDER = "RGBXYZVA"
 
 
 def render(
-    scene: bpy.types.Scene, names: Collection[str], folder: Path, centres: bool = False
+    scene: bpy.types.Scene,
+    names: Collection[str],
+    folder: Path,
+    centres: bool = False,
+    infrared: bool = True,
 ) -> list[tuple[int, dict[str, Channels]]]:
     """Render the view layers of passes with one call.
 
@@ -32,13 +36,16 @@ def render(
         For a temporary file of about 100 bytes per pixel.
     centres
         All rays go through pixel centres.
+    infrared
+        Write infrared radiance to the AOV of surfaces; otherwise that channel is 0.
 
     Returns
     -------
     For each eye: its number (-1 left, 1 right, or 0 for mono), and its channels by pass.
     """
     layers.select(scene, names)
-    with engine.pixel_centres(scene, centres), layers.black_materials(scene, names), light_only(names):
+    shaders = layers.black_materials(scene, names), light_only(names, infrared)
+    with engine.pixel_centres(scene, centres), shaders[0], shaders[1]:
         return render_selected(scene, names, folder)
 
 

@@ -1,3 +1,4 @@
+import bpy
 import pytest
 from firetwin.blender import nodes
 from firetwin.render.light_only import light_only
@@ -36,3 +37,24 @@ def test_an_error_restores_the_shaders(switches):
     with pytest.raises(ZeroDivisionError), light_only(["rgb"]):
         raise ZeroDivisionError
     assert _linked(switches) == before
+
+
+def _infrared_inputs():
+    """Third channels of the AOV of surfaces, which record infrared radiance."""
+    outputs = [
+        node
+        for tree in bpy.data.node_groups
+        for node in tree.nodes
+        if node.bl_idname == "ShaderNodeOutputAOV" and node.aov_name == nodes.SURFACE
+    ]
+    return [node.inputs["Color"].links[0].from_node.inputs["Z"] for node in outputs]
+
+
+def test_infrared_radiance_is_cut_from_a_picture_that_no_pass_needs_it_in(switches):
+    (channel,) = _infrared_inputs()
+    with light_only(["rgb"], infrared=False):
+        assert not channel.is_linked
+        assert channel.default_value == 0.0
+    assert _linked([channel]) == ["ShaderNodeAttribute"]
+    with light_only(["rgb"]):
+        assert channel.is_linked
