@@ -196,3 +196,20 @@ def test_tufts_are_bare_soon_after_the_fire(shot, stage, scene):
     forest._instances(shot, stage, stage.part("Forest"), "Understorey", points, made)
     seen = [_number(name) for name in _instances("Firetwin Understorey")[2]]
     assert seen == [models.TUFTS[0], models.TUFTS[0], models.STUBBLE[0]]
+
+
+@pytest.mark.parametrize("part", ["Foliage", "Bark", "Grass"])
+def test_rays_from_other_surfaces_meet_plain_plants(shot, stage, part):
+    _planted(shot, stage)
+    tree = bpy.data.node_groups[f"Firetwin {part} Shader"]
+    links = {link.to_socket: link.from_socket for link in tree.links}
+    (mix,) = (
+        node
+        for node in tree.nodes
+        if node.bl_idname == "ShaderNodeMixShader"
+        and links[node.inputs[0]].name == "Is Camera Ray"
+        and links[node.inputs[0]].node.bl_idname == "ShaderNodeLightPath"
+    )
+    plain = links[mix.inputs[1]].node
+    assert plain.bl_idname == "ShaderNodeBsdfDiffuse"
+    assert not any(socket.is_linked for socket in plain.inputs)

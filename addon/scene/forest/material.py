@@ -38,6 +38,7 @@ _YELLOWED = (0.110, 0.098, 0.036)
 _HUES = (0.64, 0.80, 0.98), (1.46, 1.24, 0.88)  # factors on the bluest and yellowest stands; by eye
 _SINGED = 0.7  # browning of the green tops of partly scorched trees by hot air and soot; by eye
 _BROWN = ((0.060, 0.041, 0.026), (0.118, 0.080, 0.046))  # needles killed by drought, beetles or heat
+_REFLECTED = (0.04, 0.045, 0.025)  # colour of plants that light other surfaces, a mean (assumed)
 _BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # charred needles
 
 
@@ -272,10 +273,16 @@ def _finish(
 
     Trees have an instance number. An `alight` tree is of the class fire, also between the tongues of its
     flames, which are smaller than pixels from afar. The understorey counts as ground.
+
+    Rays from other surfaces meet a plain shader, which takes less time and emits no light: lamps light the
+    surroundings of flames.
     """
     at_camera = infrared.radiance_at_camera(tree, shot, stage, warmth)
     flame_gaps.write(tree, stage)
-    shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage, glow), at_camera)
+    camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
+    plain = tree.output("ShaderNodeBsdfDiffuse", {"Color": _REFLECTED})
+    shader = tree.mix_shader(camera, plain, haze.apply(tree, shader, stage, glow))
+    shader = nodes.thermal_switch(tree, shader, at_camera)
     # Not "Fac", the mean of three equal components: it is rounded, and instance numbers need all 24 bits.
     number, _, _ = tree.separate(tree.attribute("number", "INSTANCER", "Vector"))
     below = (_age(tree) > 0.0) * (masks.BURNED - masks.GROUND) + masks.GROUND
