@@ -80,7 +80,9 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     cycles.fast_gi_method = "ADD"  # number of bounces: world settings, see `scene.light.build`
     filled = cycles.use_fast_gi = scene.world is not None and owned.is_ours(scene.world)
     cycles.diffuse_bounces = 0 if filled else 1  # the fill light approximates the first bounce as well
-    if scene.world is not None:  # the sky has no sun disc, and its automatic map resolution costs 2 s a frame
+    if filled:  # our sky has no sun disc: rays from surfaces find it, and every light sample is of a lamp
+        scene.world.cycles.sampling_method = "NONE"
+    elif scene.world is not None:  # the automatic resolution of its map costs 2 s a frame
         scene.world.cycles.sampling_method = "MANUAL"
         scene.world.cycles.sample_map_resolution = 256
 

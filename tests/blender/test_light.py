@@ -96,9 +96,11 @@ def test_the_shade_between_trees_is_filled_most_by_day_and_by_no_world_but_ours(
         found.append(scene.world.light_settings.ao_factor)
     assert 0.05 < found[0] < 0.15
     assert 0.0 < found[1] < 0.4 * found[0]
+    assert scene.world.cycles.sampling_method == "NONE"
     scene.world = bpy.data.worlds.new("mine")
     engine.apply(settings, scene)
     assert not scene.cycles.use_fast_gi
+    assert scene.world.cycles.sampling_method == "MANUAL"  # it may have a sun
 
 
 def test_a_world_of_the_artist_stays_in_a_scene_of_ours(shot, stage, scene):
