@@ -119,7 +119,6 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
         Radiance that is white in the picture, if the light of flames in gaps is to be softened.
     """
     share = _coverage(surfaces, distances)
-    hidden = _flame_coverage(surfaces, distances, share)[..., None]
     share = share[..., None]
     smoke, through = marched[..., :3], marched[..., 3:4]
     flamelight = marched[..., 4:7] if marched.shape[-1] > 4 else np.zeros_like(smoke)
@@ -134,14 +133,14 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     # with distant light, such as fire behind smoke. Flames that are marched are not in that colour.
     split = share * inner * (near - far) + solid * far
     behind = np.where(edge[..., None], split, behind)
-    flaming = (1.0 - hidden) * (flamelight[:, :, 1] - flamelight[:, :, 0])
+    flaming = (1.0 - share) * (flamelight[:, :, 1] - flamelight[:, :, 0])
     veil = smoke - flamelight
     gaps = (1.0 - share) * (veil[:, :, 1] - veil[:, :, 0]) + flaming
     light = smoke[:, :, 0] + gaps
     burning = flamelight[:, :, 0] + flaming
     if white is not None:
         excess = gaps * _share_of_flames(gaps)
-        limited = _limited(excess, hidden, _GAP * white) - excess
+        limited = _limited(excess, share, _GAP * white) - excess
         light += limited
         burning = np.maximum(burning + limited, np.minimum(burning, 0.0))  # blue of flames is negative
     surface = np.maximum(behind + fire * flames, 0.0)
@@ -281,11 +280,6 @@ def _coverage(surfaces: Surfaces, distances: Array) -> Array:
     # If both surfaces are before the flames, `before` counts rays to the far one too.
     divided = _hides_flames(surfaces, distances) & (distances[..., 1] > surfaces.flame_distance)
     return np.where(divided, before, share)
-
-
-def _flame_coverage(surfaces: Surfaces, distances: Array, share: Array) -> Array:
-    """Estimate the coverage (h, w) for the light of flames: by all rays that meet surfaces before them."""
-    return np.where(_hides_flames(surfaces, distances), _before_flames(surfaces), share)
 
 
 def _hides_flames(surfaces: Surfaces, distances: Array) -> NDArray[np.bool_]:

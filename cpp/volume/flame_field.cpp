@@ -17,12 +17,13 @@ constexpr float octave_warp = 0.35F;   // displacement of an octave by the previ
 constexpr float first_band =
     0.25F; // m, height of the first band; each is twice as high as the last
 constexpr float crown_eddies = 2.2F; // radii of a crown that correspond to a flame's length
-constexpr float reach = 3.0F;        // m by which eddies move flames up
+constexpr float reach = 4.0F;        // m by which eddies move flames up
 constexpr float folds = 1.0F;        // thinness of the bright sheets within flames
-constexpr float sheets = 0.9F;       // share of the soot in them
+constexpr float sheets = 0.97F;      // share of the soot in them
+constexpr float patches = 0.4F;      // strength of hotter and cooler patches
 constexpr float slow = 2.0F;         // m, height below which gas may be as slow as at the ground
 constexpr double octave_turn = 2.4;  // radians between the lattices of octaves
-constexpr double drawn_out = 2.2;    // height over width of eddies
+constexpr double drawn_out = 1.3;    // height over width of eddies
 constexpr std::array<double, FlameField::sways> sway_sizes{7.5, 2.4, 0.8}; // m
 constexpr std::array<double, 2> fuel_sizes{2.6, 0.8};                      // m, gaps of fuel
 
@@ -89,8 +90,9 @@ FlameField::Octave FlameField::make_octave(double size, double angle, std::uint3
   const double cosine = std::cos(angle) / size, sine = std::sin(angle) / size;
   made.cosine = static_cast<float>(cosine);
   made.sine = static_cast<float>(sine);
-  split_coordinate(cosine * origin[0] + sine * origin[1], made.origin.cell[0], made.origin.part[0]);
-  split_coordinate(cosine * origin[1] - sine * origin[0], made.origin.cell[1], made.origin.part[1]);
+  const double east = origin[0] - shape_.wind[0] * time, north = origin[1] - shape_.wind[1] * time;
+  split_coordinate(cosine * east + sine * north, made.origin.cell[0], made.origin.part[0]);
+  split_coordinate(cosine * north - sine * east, made.origin.cell[1], made.origin.part[1]);
   made.origin.cell[0] += seed * 0x9e3779b9U;
   for (std::size_t band = 0; band < bands; ++band) {
     const double height =
@@ -201,7 +203,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
                   octave.cosine * py - octave.sine * px + octave.origin.part[1], upward, cell,
                   octave.origin.cell[0], octave.origin.cell[1], value, slope);
   };
-  Lanes risen = height;
+  Lanes risen = height, moved_x{}, moved_y{};
   for (std::size_t n = 0; n < sways; ++n) {
     const float size = sway_[2 * n].size;
     if (size < 2.0F * fine) {
@@ -214,16 +216,18 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
     for (std::size_t k = 0; k < 2; ++k) {
       const Octave& octave = sway_[2 * n + k];
       Lanes value, turned[3];
-      noise_at(octave, foot_x, foot_y, flight * octave.rate[0] + octave.part[0],
+      noise_at(octave, x + moved_x, y + moved_y, flight * octave.rate[0] + octave.part[0],
                LaneHash{} + octave.cell[0], value, turned);
       slope[k][0] = (octave.cosine * turned[0] - octave.sine * turned[1]) * size;
       slope[k][1] = (octave.sine * turned[0] + octave.cosine * turned[1]) * size;
       slope[k][2] = turned[2];
     }
-    foot_x -= strength * slope[0][2];
-    foot_y -= strength * slope[1][2];
+    moved_x -= strength * slope[0][2];
+    moved_y -= strength * slope[1][2];
     risen += strength * (slope[0][0] + slope[1][1]);
   }
+  foot_x += moved_x;
+  foot_y += moved_y;
   risen = risen < 0.0F ? Lanes{} : risen;
   roots(launch * launch + 2.0F * lift * risen, speed);
   flight = (speed - launch) * (1.0F / lift);
@@ -235,7 +239,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   eddy = length;
   hollow = Lanes{} + 1.0F;
   if (!tiles_.spindles().empty()) {
-    add_crowns(x, y, z, foot_x - (x - wind_x * flight), foot_y - (y - wind_y * flight), shares);
+    add_crowns(x, y, z, moved_x, moved_y, shares);
   }
   share = buried ? Lanes{} + 9.0F : share;
   out.length = length;
@@ -265,7 +269,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
     even = even && band[lane] == band[0];
   }
   const float tallest = greatest(eddy), smallest = std::max(fine, 0.008F * tallest);
-  Lanes sum{}, total = Lanes{} + 1.0e-6F, last{}, grain{}, grains = Lanes{} + 1.0e-6F;
+  Lanes sum{}, patch{}, total = Lanes{} + 1.0e-6F, last{}, grain{}, grains = Lanes{} + 1.0e-6F;
   float amplitude = 1.0F;
   float folds_weight = 1.0F; // finer folds are nearly as strong
   for (std::size_t n = 0; n < octaves;
@@ -298,14 +302,15 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
         }
       }
       Lanes value;
-      noise_at(octave, foot_x + (octave_warp * octave.size) * last,
-               foot_y + (octave_warp * octave.size) * last, flight * rate + present, cell, value,
-               nullptr);
+      noise_at(octave, x + moved_x + (octave_warp * octave.size) * last,
+               y + moved_y + (octave_warp * octave.size) * last, flight * rate + present, cell,
+               value, nullptr);
       found += part[k] * value;
     }
     last = found;
     sum += weight * found;
     total += weight;
+    patch += (n % 2 == 0 ? -1.0F : 1.0F) * weight * found; // independent of the sum
     Lanes small;
     clamp_lanes(1.5F - octave.size / (eddy + 1.0e-6F) * 3.0F, 0.0F, 1.0F, small);
     grain += small * folds_weight * found;
@@ -330,7 +335,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   smooth_lanes(length, 0.5F, 0.0F, base);
   value -= 0.5F * base;
   smooth_lanes(value, 0.0F, shape_.edge, out.flame);
-  smooth_lanes(share, 1.6F, 1.1F, top);
+  smooth_lanes(share, 1.5F, 1.0F, top);
   // Soot glows in thin folded sheets, with dark gas between them.
   Lanes sheet, core;
   roots(grains, sheet);
@@ -342,14 +347,17 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   const Lanes bright = grains > 0.01F ? sheet : Lanes{} + 0.55F;
   sheet = grains > 0.01F ? sheet : Lanes{} + 0.4F;
   clamp_lanes(value, 0.0F, 1.2F, core);
-  out.flame *= top * hollow * (1.0F - sheets + 1.4F * sheets * sheet) * (1.0F - 0.3F * cool);
-  clamp_lanes((0.12F + 0.44F * core) * (0.5F + 0.8F * bright) * (1.0F - 0.35F * cool) *
-                  (1.0F + 0.35F * gaps * rooted),
+  // Hot where fuel gas burns, at the foot and in patches; cool where soot has radiated its heat.
+  patch *= 1.7F / total;
+  out.flame *= top * hollow * (1.0F - sheets + 1.4F * sheets * sheet) * (1.0F - 0.1F * cool);
+  clamp_lanes((0.05F + 0.5F * core) * (0.25F + bright) * (1.0F - 0.4F * cool) *
+                      (1.0F + 0.35F * gaps * rooted) +
+                  patches * patch + 0.15F * rooted,
               0.0F, 1.0F, out.heat);
   Lanes begin, end, thick;
-  smooth_lanes(share, 0.45F, 1.3F, begin);
+  smooth_lanes(share, 0.55F, 1.3F, begin);
   smooth_lanes(share, FlameTiles::soot_top, 1.4F, end);
-  smooth_lanes(value, -0.75F, -0.05F, thick);
+  smooth_lanes(value + patches * patch, -0.5F, -0.05F, thick);
   clamp_lanes(1.0F - out.flame, 0.0F, 1.0F, out.soot);
   out.soot *= begin * end * thick;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {

@@ -15,11 +15,11 @@ struct FlameShape {
   std::array<double, 2> wind{}; ///< speed at which rising gas is carried, m/s east and north
   double launch = 1.5;          ///< speed of rise at the ground, m/s
   double acceleration = 7.0;    ///< of rising gas, m/s2
-  float fill = 0.92F;           ///< value at the foot of a flame without noise; it burns above 0
+  float fill = 0.85F;           ///< value at the foot of a flame without noise; it burns above 0
   float taper = 0.95F;          ///< decrease of the value over a flame's length
-  float ragged = 2.6F;          ///< strength of the noise
+  float ragged = 3.3F;          ///< strength of the noise
   float edge = 0.22F;           ///< values from 0 over which a flame becomes opaque
-  float roll = 0.17F;           ///< displacement by eddies relative to their size
+  float roll = 0.25F;           ///< displacement by eddies relative to their size
   float broken = 0.6F;          ///< strength of gaps at the foot where fuel is gone
 };
 
@@ -43,10 +43,10 @@ struct FlameShares {
 /// the gas.
 ///
 /// A parcel of gas leaves the ground with `launch` and accelerates, so noise is sampled at the time
-/// at which the gas left the ground. The octaves below half of a flame's length are sampled in
-/// bands of height and blended, because a pattern that rises faster and faster would be drawn out.
-/// Soot is in thin folded sheets within a flame.
-/// Coordinates are relative to `origin`. Nothing depends on other times or on the camera.
+/// at which the gas left the ground. It drifts with the wind: flames lean, but eddies stay round.
+/// The octaves below half of a flame's length are sampled in bands of height and blended, because a
+/// pattern that rises faster and faster would be drawn out. Soot is in thin folded sheets within a
+/// flame. Coordinates are relative to `origin`. Nothing depends on other times or on the camera.
 class FlameField {
 public:
   static constexpr std::size_t octaves = 9, bands = 9, sways = 3;

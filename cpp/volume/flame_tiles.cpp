@@ -10,7 +10,7 @@ namespace {
 
 constexpr float spindle_cell = 8.0F; // m
 constexpr float swing = 0.4F; // reach of swaying and eddies in flame lengths, at most `most_swing`
-constexpr float most_swing = 5.0F; // m
+constexpr float most_swing = 6.0F; // m
 constexpr float overshoot = 0.05F; // cells by which steps may enter one with flames, for progress
 constexpr float outside = 10.0F;   // m, step outside of all squares
 constexpr float crown_sway = 1.5F; // m

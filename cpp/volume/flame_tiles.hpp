@@ -30,8 +30,8 @@ public:
   static constexpr float soot_top = 1.9F;   ///< height to which soot reaches, in flame lengths
   static constexpr float crown_top = 1.3F;  ///< height to which flames of a crown reach, in `top`
   static constexpr float crown_wide = 1.5F; ///< their greatest radius, in radii of the crown
-  static constexpr float upright = 0.55F;   ///< part of `top` up to which they stand upright
-  static constexpr float lean = 0.6F;       ///< of them above, relative to free flames
+  static constexpr float upright = 0.45F;   ///< part of `top` up to which they stand upright
+  static constexpr float lean = 0.8F;       ///< of them above, relative to free flames
   static constexpr float none = -1.0e9F;
 
   /// @param squares finest first; all are around the camera

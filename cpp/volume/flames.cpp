@@ -14,6 +14,7 @@ constexpr float fine_step = 0.016F;                   // of the flame length
 constexpr float near_step = 0.013F;                   // of the distance from the eye
 constexpr float step_pixels = 0.8F;
 constexpr float finest_eddy = 1.2F;                 // of the step: smaller ones would be noise
+constexpr float finest_pixels = 1.7F;               // pixels: eddies are folded, so they are finer
 constexpr std::array<float, 2> at_lens{0.4F, 2.0F}; // m, distances up to which flames are left out
 constexpr float thin_flame = 1.0e-4F;               // 1/m, extinction that is left out
 
@@ -137,7 +138,8 @@ void FlameRay::fill(float from, float step, FlameSlab& slab) const {
     away[lane] = from + step * (static_cast<float>(lane) + 0.5F);
   }
   FlameSamples found;
-  const float fine = std::max(view.pixel * away[lane_count / 2], finest_eddy * step);
+  const float fine =
+      std::max(finest_pixels * view.pixel * away[lane_count / 2], finest_eddy * step);
   flames_.field().evaluate(start_[0] + direction_[0] * away, start_[1] + direction_[1] * away,
                            start_[2] + direction_[2] * away, fine, found);
   const auto last = static_cast<float>(light.visible.size() - 1);

@@ -78,6 +78,24 @@ def test_a_pixel_at_a_silhouette_is_shared_by_near_and_far(part, flames):
     assert picture(found)[3, 4] == pytest.approx(expected, rel=1e-4)
 
 
+def test_flames_that_dim_the_far_surface_are_seen():
+    """Also if most flames are behind both surfaces, such as in rows of flames one behind the other."""
+    distance = np.full(SIZE, 200.0, np.float32)
+    distance[:, 5:] = 4000.0
+    behind = {"flame_distance": np.full(SIZE, 5000.0, np.float32), "before": np.ones(SIZE, np.float32)}
+    nearness = 1000.0 / distance
+    nearness[:, 4] = 0.5 * (5.0 + 0.25)
+    found = surfaces(1.0, distance, nearness=nearness, **behind)
+    seen = composite.taps(found)
+    marched = np.zeros((*SIZE, 3, 8), np.float32)
+    marched[..., 3] = marched[..., 7] = 1.0
+    past = seen > 1000.0  # opaque flames at 1000 m
+    marched[past, :3], marched[past, 3], marched[past, 4:7] = 5.0, 0.0, 5.0
+    picture = composite.compose(found, seen, marched).picture
+    assert picture[3, 4] == pytest.approx(0.5 * 1.0 + 0.5 * 5.0)
+    assert picture[3, 7] == pytest.approx(5.0)
+
+
 def test_the_sky_beside_a_twig_stays_behind_the_smoke():
     """A pixel of 8 rays, of which one meets the twig, has the sky's colour."""
     distance = np.full(SIZE, FAR)

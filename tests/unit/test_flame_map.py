@@ -65,6 +65,26 @@ def test_flames_stand_where_the_front_has_just_passed(make_run):
     assert mean[east < front - 2.0 * 120.0 * PACE].max(initial=0.0) < 1.0
 
 
+@pytest.mark.parametrize(("load", "canopy", "remains"), [(0.5, 0.0, False), (2.0, 1.0, True)])
+def test_grass_leaves_no_flames_behind_its_front(make_run, load, canopy, remains):
+    time, shot = 300.0, shot_of(make_run, 20.0, load, canopy)
+    (square, *_) = [each for each in over_front(shot, time) if each.spacing == 1.0]
+    east = square.corner[0] + np.arange(len(square.length))
+    front = -230.0 + PACE * (time - 1.0)
+    assert square.length[:, east < front - 5.0 - 20.0 * PACE].any() == remains
+
+
+def test_distant_fronts_are_lines(make_run):
+    shot = shot_of(make_run, 20.0, 2.0, canopy=1.0)
+    (square, *_) = [
+        each for each in over_front(shot, 300.0, (1500.0, 0.0, 3.0), 4000.0) if each.spacing == 16.0
+    ]
+    burning = square.length.max(axis=1)
+    rows = np.flatnonzero(burning)[2:-2]
+    assert len(rows) > 5
+    assert (burning[rows] > 4.0).all()
+
+
 def test_squares_agree_and_do_not_depend_on_the_camera(make_run):
     shot = shot_of(make_run, 20.0, 2.0)
     near, other = over_front(shot, 300.0), over_front(shot, 300.0, eye=(37.0, -11.0, 3.0))

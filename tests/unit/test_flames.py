@@ -159,6 +159,18 @@ def test_the_pattern_rises_with_the_gas():
     assert max(speeds) < 1.2
 
 
+def test_wind_does_not_comb_flames_into_strokes():
+    length = 8.0
+    burning = flames([front(length, 0.8 * length)], wind=(4.0, 0.0))
+    origins, directions, _, shape = look(length, wide=160, high=60)
+    found = volume.march([], origins, directions, np.full((len(origins), 1), 64.0), LIGHT, flames=burning)
+    seen = np.log(np.maximum(found[:, 0, :3], 0.0).sum(axis=-1).reshape(shape) + 0.1)
+    up, across = (slope[10:40] for slope in np.gradient(seen))
+    steep, level, both = (up**2).mean(), (across**2).mean(), (up * across).mean()
+    aligned = np.hypot(steep - level, 2.0 * both) / (steep + level)  # 1: all strokes are parallel
+    assert aligned < 0.22
+
+
 def test_a_still_front_does_not_slide():
     length = 8.0
     lengths, ground, corner, cell = front(length, 0.8 * length)

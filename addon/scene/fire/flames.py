@@ -219,7 +219,7 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
     """Create flames of torching crowns when the front reaches them: tall, thin and short-lived.
 
     The fraction of burning crowns (`fire_effects`) that torch grows with canopy density. They torch in the
-    clumps in which the front has its tallest flames, for half a minute to a minute, up to 1.3 to 1.5 times
+    clumps in which the front has its tallest flames, for half a minute to a minute, up to 1.05 to 1.5 times
     the tree's height (by eye). They are as wide as the tree: one of a distant, thinned stand burns for those
     that it represents.
     """
@@ -240,7 +240,7 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
     chosen = np.flatnonzero(lit & (arrival + residence > first))
     row, column, size = row[chosen], column[chosen], size[chosen]
     height = grown.height[near[chosen]]
-    length = np.clip(height * (1.3 + 0.2 * size), *_LENGTHS)
+    length = np.clip(height * (1.05 + 0.45 * size), *_LENGTHS)
     intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * canopy[chosen] * ground.spread(row, column)
     return Points(
         grown.position[near[chosen]],

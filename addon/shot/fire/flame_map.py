@@ -26,6 +26,7 @@ _BEFORE = 900.0  # s before the first frame from which flames are still seen
 
 _FINEST, _COARSEST = 0.25, 128.0  # m, spacing of the finest and the coarsest square
 _CELLS, _TILE = 256, 8  # cells along a square, and cells along a tile of the march
+_PART, _PARTS = 4.0, 4  # m, distance between the places at which lengths are averaged; most along a cell
 _GROUND = 4.0  # m, distance at which the ground is computed, or more; its finest waves are 26 m long
 _RAGGED = ((14.0, 3.5), (4.5, 1.2))  # m, sizes and shifts of the ragged edge of a crown fire's front (by eye)
 _WIDEST = 8.0  # m, more than these shifts add up to
@@ -37,7 +38,8 @@ _DEEP = 0.35  # least depth of the tall part over the flame length: thinner shee
 _LONGEST = 900.0  # s
 _RISING = 0.12  # fraction of the tall phase in which flames grow (by eye)
 _LOW = 0.22  # height behind the tall phase (by eye)
-_RESIDUAL = (0.25, 3.0)  # height of residual flames: fraction of the length, and at most, m (by eye)
+_RESIDUAL = (0.15, 2.0)  # height of residual flames: fraction of the length, and at most, m (by eye)
+_WOOD = (20.0, 60.0)  # s, residence times from which fuel leaves residual flames; grass burns out (assumed)
 _PATCH = 9.0  # m, size of patches of fuel that burn on behind the front
 _UNEVEN = ((26.0, 0.8, 0.7), (9.0, 0.6, 0.2))
 """Sizes of the noise of the lengths' logarithm, m, and its strengths in low flames and in a crown fire, where
@@ -207,12 +209,12 @@ def lengths(shot: Any, place: Array, row: Array, column: Array, time: float) -> 
     for index, (size, low, tall) in enumerate(_UNEVEN):
         wave = noise.fractal(east, north, size * scale, 1, seed + 550 + index)
         factor *= np.exp((low + (tall - low) * crowded) * wave)
-    clumps = noise.smoothstep(*_CLUMPS, clumping(shot, east, north))
-    factor *= 1.0 - crowded * (1.0 - _BETWEEN) * (1.0 - clumps)
+    clumps = clumping(shot, east, north)
+    factor *= 1.0 - crowded * (1.0 - _BETWEEN) * (1.0 - noise.smoothstep(*_CLUMPS, clumps))
     long = np.clip(even * np.minimum(factor, _TALLEST), 0.0, _LENGTHS[1]) * (fuel > _LEAST_FUEL)
     height = long * upright(long, carrying_wind(shot))
     age = time - ground.arrival_at(row, column)
-    patch = noise.fractal(east, north, _PATCH * scale, 2, seed + 560)
+    patch = noise.fractal(east, north, _PATCH * scale, 2, seed + 560) + clumps
     outside = noise.smoothstep(-0.06, 0.06, gap_margin(east, north, even, scale, seed))
     found = height * _phase(age, speed, residence, long, patch) * outside
     return np.where(found >= _LENGTHS[0], found, 0.0)
@@ -224,13 +226,14 @@ def _phase(age: Array, speed: Array, residence: Array, length: Array, patch: Arr
     out = np.maximum(residence, 1.6 * tall)
     up = np.clip(age / (_RISING * tall), 0.0, 1.0)
     down = 1.0 - (1.0 - _LOW) * noise.smoothstep(0.0, 1.0, (age - tall) / (out - tall))
-    fuel = np.clip(0.55 + 1.5 * patch, 0.0, 1.2)  # fuel behind the leading flames burns in patches
+    fuel = np.clip(0.45 + 1.2 * patch, 0.0, 1.2)  # fuel behind the leading flames burns in patches
     down *= 1.0 + (fuel - 1.0) * noise.smoothstep(0.3, 1.0, age / tall)
     main = up * (2.0 - up) * down * (1.0 - noise.smoothstep(1.0, 1.3, age / out))
     share = np.minimum(_RESIDUAL[0], _RESIDUAL[1] / np.maximum(length, 0.1))
     late = (age - out) / residence
-    residual = share * np.exp(-np.clip(late, 0.0, 9.0)) * np.clip(0.2 + 1.6 * patch, 0.0, 1.0)
+    residual = share * np.exp(-np.clip(late, 0.0, 9.0)) * np.clip(2.0 * patch - 0.8, 0.0, 1.0)
     residual *= (late > -0.5) * (1.0 - noise.smoothstep(1.2, 1.8, late))
+    residual *= noise.smoothstep(*_WOOD, residence)
     return np.where(age > 0.0, np.maximum(main, residual), 0.0)
 
 
@@ -264,6 +267,16 @@ def upright(length: Array, wind: tuple[float, float]) -> Array:
     return length / np.maximum(np.hypot(length, np.hypot(*wind) * flight), 1.0e-6)
 
 
+def _parts(spacing: float) -> Array:
+    """Return places (n, 2) in a cell, in cells to the north and east, at which lengths are averaged.
+
+    A front is narrower than the cells at a distance, and would be a row of dots.
+    """
+    count = int(np.clip(np.ceil(spacing / _PART), 1, _PARTS))
+    line = (np.arange(count) + 0.5) / count - 0.5
+    return np.stack(np.meshgrid(line, line, indexing="ij"), axis=-1).reshape(-1, 2)
+
+
 def _square(
     shot: Any, eye: Array, time: float, spacing: float, inner: Any, lens: Lens | None
 ) -> tuple[Square, tuple[Array, Array]]:
@@ -293,13 +306,14 @@ def _square(
         chosen[at[:, 0], at[:, 1]] = lens.sees(points - eye, _MARGIN + 2.0 * spacing)
     at = np.flatnonzero(chosen)
     if len(at):
-        length.ravel()[at] = lengths(
-            shot,
-            place.reshape(-1, 2)[at],
-            bilinear(row, up[at], right[at]),
-            bilinear(column, up[at], right[at]),
-            time,
-        )
+        parts = _parts(spacing)
+        total = np.zeros(len(at))
+        for shift in parts:
+            there, over = place.reshape(-1, 2)[at] + shift[::-1] * spacing, shift / every
+            nodes = np.clip(up[at] + over[0], 0.0, None), np.clip(right[at] + over[1], 0.0, None)
+            rows, columns = bilinear(row, *nodes), bilinear(column, *nodes)
+            total += lengths(shot, there, rows, columns, time) ** 2
+        length.ravel()[at] = np.sqrt(total / len(parts))
     inside = low + 2.0 * tile, low + (_CELLS - 2 * _TILE) * spacing
     return (
         Square(
