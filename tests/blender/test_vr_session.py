@@ -1,16 +1,19 @@
 """Landmarks, actions and frame times of VR sessions, without a session."""
 
 from types import SimpleNamespace
+from unittest.mock import MagicMock
 
 import bpy
 import firetwin
 import pytest
+import views
 from firetwin.blender import owned
 from firetwin.scene.camera import ground_raycast
 from firetwin.scene.live import switch
 from firetwin.ui import go_to
-from firetwin.ui.vr import controllers, display, landmark_list, session, teleport
-from mathutils import Matrix, Vector
+from firetwin.ui.vr import controllers, display, landmark_list, moves, session, teleport
+from firetwin.ui.vr.panel import FIRETWIN_PT_vr
+from mathutils import Matrix, Quaternion, Vector
 
 
 @pytest.fixture
@@ -152,3 +155,41 @@ def test_a_frame_time_longer_than_72_hertz_is_a_warning(seconds, slow):
     words, found = display.describe(seconds)
     assert found is slow
     assert words.startswith("Frame time: ")
+
+
+@pytest.mark.parametrize(
+    ("seconds", "live", "shading", "words"),
+    [
+        (0.0139, False, "SOLID", ()),
+        (0.02, False, "RENDERED", ("live scene",)),
+        (0.02, True, "RENDERED", ("shading Solid", "hide smoke or trees")),
+        (0.02, True, "SOLID", ("hide smoke or trees",)),
+    ],
+)
+def test_the_panel_warns_of_slow_frames_with_a_remedy(panel, monkeypatch, seconds, live, shading, words):
+    layout = MagicMock()
+    layout.column.return_value = layout
+    monkeypatch.setattr(session, "is_running", lambda: True)
+    monkeypatch.setattr(display, "frame_time", lambda: seconds)
+    monkeypatch.setattr(switch, "is_live", lambda scene: live)
+    context = views.context(bpy.context.scene, 2000)
+    context.space_data.shading.type = shading
+    FIRETWIN_PT_vr.draw(SimpleNamespace(layout=layout), context)
+    texts = [call.kwargs["text"] for call in layout.label.mock_calls]
+    assert texts[0] == display.describe(seconds)[0]
+    assert len(texts) == (2 if words else 1)
+    assert all(word in texts[-1] for word in words)
+    assert ("shading" in texts[-1]) == ("shading Solid" in words)
+
+
+def test_a_snap_turn_turns_about_the_viewer(panel, monkeypatch):
+    """Blender moves the room: the viewer stays in place, and looks 30 degrees to the left."""
+    viewer, state = Vector((5.0, 7.0, 2.0)), SimpleNamespace(navigation_rotation=Quaternion())
+    state.viewer_pose_location, state.navigation_location = viewer.copy(), Vector((1.0, 2.0, 3.0))
+    manager, turn = SimpleNamespace(xr_session_state=state), SimpleNamespace(direction=1)
+    context = SimpleNamespace(scene=bpy.context.scene, window_manager=manager)
+    moves.FIRETWIN_OT_vr_turn.execute(turn, context)
+    assert state.navigation_rotation.to_euler().z == pytest.approx(panel.vr_turn)
+    way = viewer - Vector((1.0, 2.0, 3.0))
+    now = state.navigation_location + state.navigation_rotation @ way
+    assert (now - viewer).length < 1e-5

@@ -75,6 +75,23 @@ def describe(seconds: float | None) -> tuple[str, bool]:
     return f"Frame time: {frame_clock.describe(seconds)}", frame_clock.is_slow(seconds)
 
 
+def remedy(live: bool, shading: str) -> str:
+    """Return how to make the frames of a headset shorter.
+
+    Parameters
+    ----------
+    live
+        The live scene is shown.
+    shading
+        Type of shading of the 3D view.
+    """
+    if not live:
+        return "Too slow for a headset: show the live scene (Scene > Live)"
+    if shading in ("MATERIAL", "RENDERED"):
+        return "Too slow for a headset: choose the shading Solid, or hide smoke or trees in the outliner"
+    return "Too slow for a headset: hide smoke or trees in the outliner"
+
+
 def _watch() -> float | None:
     """Redraw the panel with the frame time; at the end of the session stop drawing."""
     if bpy.types.XrSessionState.is_running(bpy.context):

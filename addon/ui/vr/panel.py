@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import bpy
 
+from ...scene.live import switch
 from .. import panel_state, working
 from ..sidebar import SidebarPanel
+from ..text import draw_paragraph
 from . import display, landmark_list, session
 
 
@@ -74,6 +76,9 @@ class FIRETWIN_PT_vr(SidebarPanel, bpy.types.Panel):
         if running:
             words, slow = display.describe(display.frame_time())
             layout.label(text=words, icon="ERROR" if slow else "NONE")
+            if slow:
+                text = display.remedy(switch.is_live(context.scene), context.space_data.shading.type)
+                draw_paragraph(context, layout.column(align=True), text)
         layout.operator("firetwin.vr_landmarks", icon="PMARKER_ACT")
 
 
