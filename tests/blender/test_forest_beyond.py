@@ -7,6 +7,7 @@ import pytest
 from firetwin.scene.forest import stand
 from firetwin.scene.terrain import build as ground_build
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from mathutils.bvhtree import BVHTree
@@ -80,3 +81,12 @@ def test_nothing_is_grown_beyond_where_no_camera_comes_near(near_settings, run):
     grown = stand.grow(shot)
     assert len(grown.height) > 100
     assert not beyond(shot, grown).any()
+
+
+@pytest.mark.parametrize(("width", "drawn"), [(640, True), (160, False)])
+def test_a_satellite_over_the_edge_sees_trees_on_both_sides_or_on_none(outward, run, width, drawn):
+    above = Camera("above", Satellite(swath=1200.0, keys=(CameraKey(0.0, 38.84, EDGE),)))
+    small = replace(outward.settings.render, resolution=(width, width))
+    shot = Shot(replace(outward.settings, cameras=(above,), render=small), run)
+    out = beyond(shot, stand.grow(shot))
+    assert (0.3 * len(out) < out.sum() < 0.7 * len(out)) if drawn else len(out) == 0

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ...run import areas, fuel_category
 from ...shot.shot import Shot
-from . import stand_structure, visible_cells
+from . import stand_structure, visibility, visible_cells
 
 _CELL = 74.0  # m, least size of a cell beyond the run; its fuels have larger patches
 _OTHER = 7919  # added to the seed, so that land beyond the run is not a copy of it
@@ -111,13 +111,19 @@ def _lines(
 
 
 def _near_edge(shot: Shot, reach: float) -> bool:
-    """Return True if a perspective camera comes closer to the run's boundary than `reach`."""
+    """Return True if a camera sees trees beyond the run's boundary.
+
+    A perspective camera sees them within `reach`, a satellite within its picture if pixels are small enough.
+    """
     fields, cell = shot.ground.fields, shot.ground.cell
-    for view in shot.perspective_paths:
-        place = view.position[shot.filmed(view)]
+    for view in shot.paths:
+        if not view.perspective and view.pixel > visibility.PIXEL:
+            continue
+        away = reach if view.perspective else float(np.hypot(*view.half))
+        place = (view.position if view.perspective else view.target)[shot.filmed(view)]
         row, column = shot.ground.indices(*shot.ground.geodetic(place[:, 0], place[:, 1]))
         for at, count, size in zip((row, column), fields.elevation.shape, cell, strict=True):
             inner = min((at - fields.margin).min(), (count - 1 - fields.margin - at).min())
-            if inner * size < reach:
+            if inner * size < away:
                 return True
     return False
