@@ -87,14 +87,16 @@ def test_the_nearer_the_fire_by_night_the_shorter_the_exposure(filmed, night_run
     assert far > max(near, close) + 0.3
 
 
-@pytest.mark.parametrize(("moon", "ground"), [(0.0, 0.004), (1.0, 0.02)])
+@pytest.mark.parametrize(("moon", "ground"), [(0.0, 0.008), (1.0, 0.02)])
 @pytest.mark.parametrize("away", [1.5, 14.0])
-def test_unlit_ground_is_almost_black_in_a_picture_exposed_for_flames(filmed, night_run, moon, ground, away):
+def test_unlit_ground_is_dark_but_readable_in_a_picture_exposed_for_flames(
+    filmed, night_run, moon, ground, away
+):
     shot = Shot(filmed(away), night_run)
     exposed = 2.0 ** stops(filmed(away), night_run)[0]
     unlit = exposure_meter.clear(sky.State(200.0, -30.0, Moon(150.0, 40.0, moon)))[0] * exposed
     flame = glow.brightness(shot) * exposure_meter.luminance(glow.FLAME) * exposed
-    assert 0.0 < unlit < ground
+    assert 0.15 * ground < unlit < ground
     assert flame > 100.0 * unlit
 
 

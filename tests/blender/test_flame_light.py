@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import owned
+from firetwin.scene import glow
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import flame_light, flame_volume, flames, lamps
 from firetwin.shot.sections import Light
@@ -15,7 +16,7 @@ from near_fire import FRAMES, moved
 
 
 def cards(scene, frame, subframe=0.0):
-    """Places (n, 3), sizes (n, 3) and light (n,), W, of the cards in a frame."""
+    """Places (n, 3), sizes (n, 3), light (n,), W, and radiance (n,) of the cards in a frame."""
     bpy.data.objects["Firetwin Flame Light"].hide_viewport = False
     scene.frame_set(frame, subframe=subframe)
     graph = bpy.context.evaluated_depsgraph_get()
@@ -24,13 +25,13 @@ def cards(scene, frame, subframe=0.0):
     parts = geometry.instances_pointcloud()
     count = len(parts.attributes["position"].data) if parts else 0
     if not count:
-        return np.empty((0, 3)), np.empty((0, 3)), np.empty(0)
+        return np.empty((0, 3)), np.empty((0, 3)), np.empty(0), np.empty(0)
     radiance = np.empty(count, np.float32)
     parts.attributes["radiance"].data.foreach_get("value", radiance)
     found = [i.matrix_world.copy() for i in graph.object_instances if i.parent == thing]
     size = np.array([m.to_scale()[:] for m in found])
     place = np.array([m.translation[:] for m in found])
-    return place, size, radiance * size[:, 0] * size[:, 2] * 4.0 * np.pi
+    return place, size, radiance * size[:, 0] * size[:, 2] * 4.0 * np.pi, radiance
 
 
 @pytest.fixture
@@ -57,19 +58,22 @@ def lit(amid, run, stage, scene):
 
 
 def test_cards_stand_at_burning_flames_and_emit_their_share_of_heat(lit, scene):
+    thick = flame_light.THICK * glow.brightness(lit)
     shot, points = lit, flames.front_flames(lit, None, flame_light.LAYOUT)
     away = np.linalg.norm(points.position - shot.paths[0].position[0], axis=1)
     share = 1.0 - noise.smoothstep(*flame_light.REACH, away)
     total = []
     for frame in (1, 12, 24):
         time = shot.frames.time(frame)
-        place, _, light = cards(scene, frame)
+        place, _, light, radiance = cards(scene, frame)
+        light *= -np.log1p(-radiance / thick) * thick / radiance  # of thin flames
         burning = np.flatnonzero(
             (flames.life((time - points.arrival_time) / points.residence) > 0) & (share > 0)
         )
         assert len(place) == len(burning) > 10
         heat = (points.heat * share * flames.life((time - points.arrival_time) / points.residence)).sum()
         total.append(light.sum() / (flame_volume.RADIATED * flame_light.LIGHT * heat))
+        assert radiance.max() < thick  # as flames that the picture shows
     assert np.array(total) == pytest.approx(1.0, abs=0.1)
 
 

@@ -3,7 +3,8 @@
 A pair of crossed cards is placed at each flame that burns now, and emits the light of the heat that this part
 of the front releases (`flames.Points.heat`). It flickers at the puffing frequency of a flame of its size, f =
 0.5 sqrt(g / D) (B. M. Cetegen and T. A. Ahmed 1993, Combustion and Flame 93, 157-184), as a function of time
-and place alone. Lamps represent the flames farther away (see `lamps`).
+and place alone. Thick flames are as bright as those that the picture shows, with gaps between them. Lamps
+represent the flames farther away (see `lamps`).
 """
 
 from __future__ import annotations
@@ -18,14 +19,17 @@ from ...shot.fire.flame_size import flame_length
 from ...shot.shot import Shot
 from .. import clock
 from ..forest.stand import Stand
+from ..glow import brightness
 from . import flames
 from .flame_volume import RADIATED
 
 REACH = 250.0, 400.0  # m from the camera of a frame, distances between which these lights give way to lamps
 FAR_LAMPS = 300.0, 2500.0  # m from a camera, distances between which the light of lamps fades in
-LIGHT = 1.8e-3
-"""W of the scene's light per radiated W; by eye. It is 5e-5 for flames of 18 m with 15,000 cd/m2, half of
-them gaps, and a radiosity of 61 kW/m2, if a luminance of 1 is 16,000 cd/m2; 4e-4 for flames of 2 to 5 m."""
+LIGHT = 2.0e-2
+"""W of the scene's light per radiated W of thin flames; by eye, as bright as drawn flames are.
+It is 5e-5 for flames of 18 m with 15,000 cd/m2, half of them gaps, and a radiosity of 61 kW/m2, if a
+luminance of 1 is 16,000 cd/m2; 4e-4 for flames of 2 to 5 m."""
+THICK = 0.8  # radiance of thick flames, with some gaps, relative to that of drawn flames
 COLOUR = (1.0, 0.36, 0.06)
 LAYOUT = flames.Layout(((REACH[1], 4.0),), gaps=False)
 """Denser than billboards, without gaps: surfaces near the front are lit evenly along it."""
@@ -115,7 +119,9 @@ def _node_group(shot: Shot, card: bpy.types.Object) -> bpy.types.NodeTree:
     eye = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location", transform_space="ORIGINAL")
     distance = tree.vector("DISTANCE", eye, tree.output("GeometryNodeInputPosition"), name="Value")
     power = named("power") * size * flicker * distance.smoothstep(REACH[1], REACH[0])
+    thick = THICK * brightness(shot)
     radiance = power / (width * height * (4.0 * np.pi))
+    radiance = thick * (1.0 - (radiance * (-1.0 / thick)).exp())
     east, north = shot.wind
     axis = (-north, east, 0.0) if np.hypot(east, north) > 0.0 else (1.0, 0.0, 0.0)
     lean = tree.output("FunctionNodeAxisAngleToRotation", {"Axis": axis, "Angle": named("tilt")})

@@ -18,7 +18,7 @@ from .. import flame_field, flame_gaps, granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness
 from . import biomes
 
-TINTS = (0.68, 0.76, 0.82), (1.36, 1.22, 1.05)
+TINTS = (0.56, 0.64, 0.70), (1.48, 1.34, 1.15)
 """Factors on the colour of the bluest and of the yellowest trees."""
 TORCHING = 300.0  # s that a crown is in flames; it is gone afterwards
 _BUSH = 0.3  # fraction of that time of a bush amid grass (assumed)
@@ -217,7 +217,7 @@ def _leaves(
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Normal": normal})
     through = tree.output("ShaderNodeBsdfTranslucent", {"Color": colour, "Normal": normal})
-    clear = tree.input("Translucency", 0.22, "Part of the light that goes through leaves", "Leaves", most=1.0)
+    clear = tree.input("Translucency", 0.35, "Part of the light that goes through leaves", "Leaves", most=1.0)
     leaf = tree.mix_shader(clear, matt, through)
     x, y, z = tree.separate(tree.output("ShaderNodeNewGeometry", name="Position"))
     flicker = tree.noise(tree.combine(x, y, (z - age * 6.0) * _TONGUES), 4.0, 2.0)

@@ -20,9 +20,11 @@ from .keyframes import add_keyframes
 _KEYS = 25  # number of keyframes of the sky
 _SKY = 0.12  # strength of the sky texture; more hides the sunlit side of smoke
 _DUST = 0.3  # parameter of the sky texture; 1 makes it pale and greenish
-_FILL = 0.44  # factor on the sky's mean radiance for ambient light in open places; by eye
-_NEAR = 15.0  # m, distance of ambient occlusion
-_NIGHT_FILL = 0.004  # minimum of that mean radiance; by eye
+# Factor on the sky's mean radiance for ambient light in open places; leaves in shade are then 3 stops darker
+# than in sunlight; by eye
+_FILL = 1.2
+_NEAR = 6.0  # m, distance of ambient occlusion
+_NIGHT_FILL = 0.018  # minimum of that mean radiance; by eye
 _TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
 _INSTEAD = ("Filmic", "Standard")  # fallback view transforms if AgX is missing, best first
 

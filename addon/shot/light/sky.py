@@ -18,17 +18,17 @@ Value = TypeVar("Value", float, NDArray[np.float64])
 
 _SUN = 11.1  # W/m2 above the atmosphere
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-# W/m2 of a full moon, and of a moonless sky: brighter than real, dark in pictures exposed for flames; by eye
-_MOON, _STARS = 0.030, 0.010
+# W/m2 of a full moon, and of a moonless sky: brighter than real, so that land shows beside flames; by eye
+_MOON, _STARS = 0.06, 0.02
 # radiance added to sky and haze by a full moon, relative to a moonless sky, at dusk and by night (by eye)
 _MOONLIT = 5.0, 1.5
 _DISC, _SOFT = 0.53, 60.0  # degrees, width of sun and moon, and of the light of a moonless sky (by eye)
 _TWILIGHT = 18.0  # degrees below the horizon at which the sun's last light has gone (astronomical twilight)
 _MOON_COLOUR = (0.65, 0.78, 1.0)
-NIGHT_SKY = np.array([0.009, 0.014, 0.026]) * 0.030  # radiance
+NIGHT_SKY = np.array([0.009, 0.014, 0.026]) * 0.050  # radiance
 DAY_SKY = np.array([0.010, 0.014, 0.024]) * 0.075  # radiance added to the sky texture by day (by eye)
 _DAY_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5
-_DUSK_HAZE, _NIGHT_HAZE = np.array([0.35, 0.45, 0.75]) * 0.01, np.array([0.40, 0.48, 0.70]) * 0.0009
+_DUSK_HAZE, _NIGHT_HAZE = np.array([0.35, 0.45, 0.75]) * 0.01, np.array([0.40, 0.48, 0.70]) * 0.0022
 _DUSK = 0.0, -8.0  # degrees, solar elevations between which light of the dusk gives way to the night's
 _FULL_DAY = 1.8  # air masses; beyond, the sun and haze in its light are redder
 HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
