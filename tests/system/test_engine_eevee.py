@@ -67,6 +67,62 @@ radiance = np.asarray(sensor.read_image(sys.argv[2]))[2, :, 0]
 print(json.dumps([radiance.tolist(), sensor.PlanckTable().brightness_temperature(radiance).tolist()]))
 """
 
+# Rows and columns of the bright pixels of a live label, seen from two sides at different distances.
+LABELS = """\
+import json, sys
+import bpy
+import numpy as np
+from mathutils import Vector
+from firetwin.blender import compat, owned
+from firetwin.scene.live import labels
+from firetwin.shot.settings import scene_file as file
+from firetwin.shot.shot import Shot
+from firetwin_core import run, sensor
+
+settings = file.read(sys.argv[1])
+bpy.ops.wm.read_factory_settings(use_empty=True)
+scene = bpy.context.scene
+stage, shot = owned.adopt(scene), Shot(settings, run.open(settings.run))
+labels.build(shot, stage, stage.part("Live"))
+place = Vector(shot.ground.point(38.840, -120.555).ravel().tolist())
+camera = bpy.data.objects.new("eye", bpy.data.cameras.new("eye"))
+camera.data.lens, camera.data.clip_end = 16.0, 1.0e5
+scene.collection.objects.link(camera)
+scene.camera = camera
+scene.render.engine, scene.eevee.taa_render_samples = compat.eevee_id(), 4
+scene.render.resolution_x, scene.render.resolution_y = 128, 72
+compat.still_settings(scene.render)
+scene.render.image_settings.file_format = "OPEN_EXR"
+scene.render.filepath = sys.argv[2]
+found = []
+for way in ((0.0, -5000.0, 0.0), (2000.0, 0.0, 0.0)):
+    camera.location = place + Vector(way)
+    camera.rotation_euler = (-Vector(way)).to_track_quat("-Z", "Y").to_euler()
+    bpy.ops.render.render(write_still=True)
+    bright = np.asarray(sensor.read_image(sys.argv[2]))[..., 0] > 0.3
+    found.append([np.flatnonzero(bright.any(axis=axis)).tolist() for axis in (1, 0)])
+print(json.dumps(found))
+"""
+
+
+@pytest.mark.slow
+def test_live_labels_turn_to_each_eye_and_have_one_angle(run_folder, tmp_path):
+    (tmp_path / "places.csv").write_text("name,latitude,longitude\nHILL,38.840,-120.555\n")
+    places = '[labels]\nenabled = true\nfile = "places.csv"\nsize = 0.2\n'
+    (tmp_path / "scene.toml").write_text(SCENE.format(run=run_folder) + places)
+    result = subprocess.run(
+        [sys.executable, "-c", LABELS, str(tmp_path / "scene.toml"), str(tmp_path / "label.exr")],
+        env=worker._environment(eevee=True),
+        capture_output=True,
+        text=True,
+    )
+    assert result.returncode == 0, result.stderr
+    first, second = json.loads(result.stdout.strip().splitlines()[-1])
+    for one, other in zip(first, second, strict=True):
+        assert len(one) > 5
+        assert abs(one[0] - other[0]) <= 1
+        assert abs(one[-1] - other[-1]) <= 1
+
 
 @pytest.mark.slow
 def test_eevee_gives_black_bodies_back_and_a_pixel_of_two_as_the_mean_of_radiance(run_folder, tmp_path):
