@@ -9,7 +9,7 @@ import bpy
 from ...blender import node_updates, owned
 from ...progress import MessageCallback, Progress, no_message, silent
 from ...shot.shot import Shot
-from . import flames, forest, ground, labels, smoke, switch
+from . import flames, forest, ground, labels, smoke, sun, switch
 
 TRIANGLES = 1_200_000
 """Budget of triangles."""
@@ -48,6 +48,7 @@ def steps(
         if baked:
             sheets = smoke.build(stage(), live, baked)
             budget -= 2 * sum(len(each.data.polygons) for each in sheets)
+        sun.build(stage(), live)
         lettered = labels.build(shot, stage(), live)
         if lettered:
             budget -= len(lettered.data.loops) - 2 * len(lettered.data.polygons)

@@ -10,6 +10,7 @@ from ..terrain import burn_scar
 
 RAGGED = 60.0  # s, variation of the arrival time by noise
 _REACH = 45.0  # m, decay length of the light of flames on the ground (by eye)
+_FRONT = 0.3  # factor on the radiance of the flaming front (by eye)
 _LIT = 0.35  # irradiance below flames over their radiance (by eye)
 
 
@@ -38,7 +39,7 @@ def front_light(
     lasts = distance.ramp(1500.0, FAR, *(part * time for time in FLAMING_TIME))
     wide = tree.math("MAXIMUM", lasts, distance * 1.0e-3 / tree.math("MAXIMUM", speed, 0.02))
     body = age.smoothstep(0.0, 15.0) * (age / wide).smoothstep(1.0, 0.3) * (lasts / wide)
-    power = body * fine.smoothstep(0.44, 0.60) * brightness(shot)
+    power = body * fine.smoothstep(0.44, 0.60) * (_FRONT * brightness(shot))
     flame = tree.vector("SCALE", tree.combine(*FLAME), power)
     if not shot.settings.fire.embers:
         return flame

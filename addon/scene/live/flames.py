@@ -25,7 +25,8 @@ SHARE = 0.06
 """Share of the scene's triangles."""
 _SHEETS = 2
 _RISE = 9.0  # m/s
-_DIMMED = 0.35  # factor on the radiance close by
+_BRIGHT = 0.4  # factor on the radiance: sheets add up (by eye)
+_DIMMED = 0.3  # further factor close by
 _HIDES = 0.5  # opacity of flames
 
 
@@ -99,7 +100,7 @@ def _material(shot: Shot, stage: Stage) -> bpy.types.Material:
     colour = tree.mix_colour(hot, tree.mix_colour(shape.smoothstep(0.15, 0.8), RIM, BODY), CORE)
     near = tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, _DIMMED, 1.0)
     air, _ = haze.fraction(tree, stage)
-    bright = tree.input("Brightness", brightness(shot), "Radiance of the hottest part", "Light")
+    bright = tree.input("Brightness", _BRIGHT * brightness(shot), "Radiance of the hottest part", "Light")
     strength = shape * (hot * 0.65 + 0.35) * near * (1.0 - air) * bright
     behind = 1.0 - shape * _HIDES
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})

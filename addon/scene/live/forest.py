@@ -30,7 +30,7 @@ _FAR_COST, _NEAR_COST = 4, 24  # triangles of a tree, for the budget
 _BROWN, _BLACK = (0.085, 0.058, 0.036), (0.016, 0.013, 0.011)
 _BARE = 60.0, 180.0  # s from the fire to a bare tree
 _SPARSE = 0.62  # part of the leaves of a burned crown that is gone: sheets stand for its branches
-_TORCH = 0.25  # factor on the radiance of flames of a whole crown (by eye)
+_TORCH = 0.06  # factor on the radiance of flames of a whole crown (by eye)
 _CLEAR = 0.22  # translucency
 
 
@@ -55,6 +55,7 @@ def build(
         data = _mesh(shot, grown, kept[tile], near[kept[tile]], number)
         data.materials.append(look)
         made.append(owned.add(collection, f"Live Trees {number:02d}", data))
+        made[-1].visible_shadow = False  # of each lamp of the flames, EEVEE draws six pictures of all trees
     return made
 
 

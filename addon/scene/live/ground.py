@@ -41,7 +41,9 @@ def build(
     place = fields.texture_coordinates(ground.shape, row, column, ground.fields.margin)
     add_attribute(data, fields.GRID, "FLOAT_VECTOR", place)
     data.materials.append(_material(shot, stage, shade))
-    return owned.add(collection, "Live Ground", data)
+    obj = owned.add(collection, "Live Ground", data)
+    obj.visible_shadow = False
+    return obj
 
 
 def shape(shot: Shot, budget: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:

@@ -17,6 +17,8 @@ REPLACED = ("Terrain", "Forest", "Fire", "Smoke")
 """Parts of the film's scene that the live scene replaces."""
 LABELS = "Live Labels"
 """Mark of the object that replaces the film's labels and signs."""
+SUN = "Live Sun"
+"""Mark of the lamp that replaces the film's sun."""
 _LETTERED = ("Places", "Signs")  # marks of these objects
 
 
@@ -47,10 +49,19 @@ def show_live(scene: bpy.types.Scene, on: bool) -> None:
     for name in REPLACED:
         for part in _parts(stage, name):
             part.hide_viewport = on
-    lettered = any(owned.is_ours(obj, LABELS) for obj in live.all_objects)
+    marks = {str(obj.get(owned.MARK)) for obj in live.all_objects}
     for obj in list(stage.root.all_objects):
         if any(owned.is_ours(obj, name) for name in _LETTERED):
-            obj.hide_viewport = on and lettered
+            obj.hide_viewport = on and LABELS in marks
+    sun = film_sun(stage)
+    if sun is not None:
+        sun.hide_viewport = on and SUN in marks
+
+
+def film_sun(stage: Stage) -> bpy.types.Object | None:
+    """Return the lamp of the film's sun; None without one."""
+    lamps = (obj for obj in stage.objects_of("Light") if obj.type == "LIGHT")
+    return next((obj for obj in lamps if obj.data.type == "SUN"), None)
 
 
 def empty(stage: Stage) -> bpy.types.Collection:
