@@ -27,9 +27,9 @@ from . import flames
 RADIATED = 0.12  # of the heat of combustion is radiated by flames (Freeborn et al. 2008: 12 +- 3 %)
 KELVIN = (960.0, 1400.0)  # K at heat 0 and 1
 SCALES = (
-    (0.5, 5.5, 0.68),
-    (1.8, 3.8, 0.62),
-    (5.0, 1.9, 0.48),
+    (0.5, 3.0, 0.68),
+    (1.8, 3.4, 0.62),
+    (5.0, 1.8, 0.48),
     (18.0, 1.1, 0.65),
     (30.0, 1.0, 1.5),
 )
