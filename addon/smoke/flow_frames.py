@@ -36,6 +36,7 @@ LIGHT = 0.65 / 4, 0.5
 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976); 0.65 remains. `sun` is the fourth
 root of the transmittance, which half floats resolve up to four times the optical depth.
 """
+_ASYMMETRY = 0.6  # of scattering (Reid et al. 2005: 0.5 to 0.65 in green light)
 DEEP = 6.0  # optical depth beyond which smoke is `hidden`: transmittance is 0.25 %
 _MAX_EXTINCTION = 0.03  # 1/m, upper limit; denser smoke would look equally opaque but need shorter steps
 _NEAR = (20.0, 36.0)  # m, smallest and largest voxels of the nest
@@ -123,6 +124,15 @@ def _pixel(shot: Shot) -> float:
 def max_extinction(scale: Scale) -> float:
     """Return the extinction (1/m) at which smoke saturates."""
     return _MAX_EXTINCTION / scale.ratio
+
+
+def diffusion_exponent(albedo: float) -> float:
+    """Return the factor on the optical depth of thick smoke by which light in it falls off.
+
+    It is the diffusion approximation for a single-scattering albedo (H. C. van de Hulst 1980, "Multiple Light
+    Scattering").
+    """
+    return float(np.sqrt(3.0 * (1.0 - albedo) * (1.0 - _ASYMMETRY * albedo)))
 
 
 def min_extinction(scale: Scale) -> float:
@@ -235,6 +245,7 @@ class Painter:
             self._lean,
             self.scale.length(windward.HEIGHT),
         )
+        smoke.dim_glow(diffusion_exponent(self.shot.fire.smoke.white))
         toward = sun.toward_light(self.shot.run, time)
         lit = volume.LitSmoke(smoke, toward.tolist(), *LIGHT, beyond.depths if beyond else None)
         return _PaintedLayer(lit, share, origin, snapshot.mass)
@@ -346,7 +357,7 @@ class Painter:
         ages = scale.time(_AGES[0]), scale.time(_AGES[1])
         fields = snapshot.fields | {
             "smoke": snapshot.fields["smoke"] / np.float32(mix.dilution),
-            "age": tones.apparent_age(shot, time, snapshot.fields["age"], corner, box.spacing, ages[1]),
+            "age": tones.apparent_age(shot, time, snapshot.fields["age"], corner, box.spacing, ages),
         }
         levels = np.array(box.levels)
         return flow.Detail(

@@ -1,8 +1,9 @@
 """Tone of smoke by phase and fuel: smoke of flames is sooty, smoke of smouldering fuel is pale at once.
 
-The flow carries one age for all smoke. Here smoke that comes from smouldering or light fuel counts as older,
-so that it is painted as white as smoke that has aged. Its source is looked up where the wind has carried it
-from.
+The flow carries one age for all smoke. Here the dark share of smoke, which falls with age, is multiplied by
+the share of its mass that flames made, because absorption mixes by mass. Smoke of flames is darker than smoke
+of smouldering fuel (S. Liu et al. 2014, doi 10.1002/2013GL058392). It is painted with the age that has this
+dark share. Its source is looked up where the wind has carried it from.
 """
 
 from __future__ import annotations
@@ -15,7 +16,6 @@ from ..shot.fire import emissions
 from ..shot.shot import Shot
 from ..shot.terrain import noise
 
-_PALE_AGE = 0.62  # of the age at which smoke is white, added to smoke without soot (by eye)
 _FLAMING = 0.06, 0.5  # shares of flames in the heat of a place, from none to full soot (by eye)
 _BLUR = 2  # passes of a 3 x 3 mean over the sources: plumes of neighbouring cells mix
 _ALOFT = 1.3  # wind where smoke rises relative to 10 m (by eye)
@@ -29,7 +29,7 @@ def apparent_age(
     age: NDArray[np.float32],
     corner: tuple[float, float],
     spacing: float,
-    white: float,
+    ages: tuple[float, float],
 ) -> NDArray[np.float32]:
     """Return the age (nz, rows, columns), s, that smoke is painted with at a model time (s).
 
@@ -39,20 +39,22 @@ def apparent_age(
         Age since emission (nz, rows, columns), s.
     corner, spacing
         West and south edge of the cells, and their size, m.
-    white
-        Age at which smoke has turned white, s.
+    ages
+        Ages between which smoke turns from dark to white, s.
     """
     soot = soot_share(shot, time, corner, spacing, (age.shape[1], age.shape[2]))
     if soot.min() == 1.0:
         return age
-    steps = np.minimum(age, white) * np.float32(_ALOFT / spacing)
+    steps = np.minimum(age, ages[1]) * np.float32(_ALOFT / spacing)
     rows, columns = soot.shape
     row = np.arange(rows, dtype=np.float32)[None, :, None] - np.float32(shot.wind[1]) * steps
     column = np.arange(columns, dtype=np.float32)[None, None, :] - np.float32(shot.wind[0]) * steps
     row = np.clip(np.rint(row), 0, rows - 1).astype(np.int32)
     column = np.clip(np.rint(column), 0, columns - 1).astype(np.int32)
-    pale = (1.0 - soot).astype(np.float32)[row, column]
-    return age + np.float32(_PALE_AGE * white) * pale
+    dark = soot.astype(np.float32)[row, column] * (1.0 - noise.smoothstep(*ages, age))
+    # The inverse of `smoothstep`
+    way = 0.5 + np.sin(np.arcsin(np.clip(2.0 * dark - 1.0, -1.0, 1.0)) / 3.0)
+    return np.maximum(age, ages[1] - (ages[1] - ages[0]) * way).astype(np.float32)
 
 
 def soot_share(

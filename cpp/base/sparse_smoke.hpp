@@ -76,6 +76,9 @@ public:
     const float* found = pool_[number(at)].get();
     return found == nullptr ? nullptr : found + field * block_size;
   }
+  float* block(const Place& at, Field field) {
+    return const_cast<float*>(std::as_const(*this).block(at, field));
+  }
   /// Stores the values of a block. Thread-safe for distinct blocks.
   void keep(const Place& at, std::span<const float> values);
 

@@ -17,6 +17,7 @@ namespace py = pybind11;
 namespace {
 
 using volume::Bricks;
+using volume::dim_glow;
 using volume::LightDepths;
 using volume::LitSmoke;
 using volume::VisibleShare;
@@ -100,7 +101,8 @@ void init_smoke(Module module) {
       .def_property_readonly("voxel_size", &SparseSmoke::voxel)
       .def_property_readonly("origin", &SparseSmoke::origin)
       .def_property_readonly("shape", &SparseSmoke::shape)
-      .def_property_readonly("used", &SparseSmoke::used);
+      .def_property_readonly("used", &SparseSmoke::used)
+      .def("dim_glow", &dim_glow, "part"_a, py::call_guard<py::gil_scoped_release>());
   Class<LightDepths, std::shared_ptr<LightDepths>>(module, "LightDepths")
       .def_property_readonly("sun", &sun_depths);
   Class<LitSmoke, std::shared_ptr<LitSmoke>>(module, "LitSmoke")

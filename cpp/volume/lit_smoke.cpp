@@ -161,6 +161,33 @@ template <class Function> void each_near(const SparseSmoke& smoke, const Functio
 
 } // namespace
 
+void dim_glow(SparseSmoke& smoke, double part) {
+  if (!smoke.glows()) {
+    return;
+  }
+  OwnedVoxelGrid below = halved(smoke);
+  below.values = optical_depth(below.view(), {0.0, 0.0, -1.0}, nullptr);
+  const GridResampler depth(below, smoke.shape(), smoke.voxel(), smoke.origin(), {});
+  constexpr Index side = SparseSmoke::side;
+  const auto [nx, ny, nz] = smoke.blocks();
+  tbb::parallel_for(Index{0}, nx * ny, [&, ny, nz](Index column) {
+    for (Index k = 0; k < nz; ++k) {
+      const Place at{column / ny, column % ny, k};
+      float* glow = smoke.block(at, SparseSmoke::glow);
+      for (Index n = 0; glow != nullptr && n < side * side; ++n, glow += side) {
+        const Index x = at[0] * side + n / side, y = at[1] * side + n % side;
+        if (x < smoke.shape()[0] && y < smoke.shape()[1]) {
+          Row found;
+          depth.row(x, y, k * side, found.data());
+          for (Index z = 0; z < side; ++z) {
+            glow[z] *= std::exp(-static_cast<float>(part) * found[static_cast<std::size_t>(z)]);
+          }
+        }
+      }
+    }
+  });
+}
+
 /// Computes weights for the sum of smoke along the first `fine_steps` voxels of the ray, linear
 /// between voxels.
 LitSmoke::Stencil::Stencil(const Vector& direction) {

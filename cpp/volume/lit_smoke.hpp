@@ -43,6 +43,10 @@ struct LightDepths {
   SkyDepths sky;      ///< on voxels of four times the size
 };
 
+/// Dims the glow of flames by the smoke below, as most flames are on the ground: by exp(-part *
+/// optical depth), on voxels of twice the size. Smoke without a glow stays as it is.
+void dim_glow(SparseSmoke& smoke, double part);
+
 /// Sunlight and skylight in sparse smoke as transmittance exp(-factor * optical depth), 1 in clear
 /// air. It is computed where the voxel or one of its 26 neighbours has smoke, as interpolation
 /// needs; elsewhere it is 0.

@@ -126,7 +126,7 @@ __attribute__((always_inline)) inline Four radiance(const Lanes& v, const Shadin
   lit = albedo * lit + sun_root * sun_root * shading.phase;
   lit = albedo * (lit * shading.sun + shading.sky * v[3]);
   if (shading.glows) {
-    lit += shading.glow * (v[4] * (1.0F - (1.0F - shading.thin) * v[3]));
+    lit += albedo * shading.glow * (v[4] * (1.0F - (1.0F - shading.thin) * v[3]));
   }
   return lit * (1.0F - haze.share) + haze.light;
 }

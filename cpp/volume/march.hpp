@@ -21,7 +21,7 @@ struct Illumination {
   double anisotropy;                        ///< g of Henyey and Greenstein
   std::array<float, 2> multiple_scattering; ///< weights of light scattered two and three times,
                                             ///< relative to single scattering
-  Colour glow;                              ///< radiance where `glow` is 1; black: no glow
+  Colour glow;         ///< radiance of white smoke where `glow` is 1; black: no glow
   float thin;          ///< share of the glow that smoke without other smoke around it scatters
   Colour air, horizon; ///< radiance of thin and of thick haze
   std::array<float, 2> thick_haze;   ///< optical depths between which haze takes the second

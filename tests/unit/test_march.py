@@ -68,12 +68,13 @@ def test_light_scattered_once_is_spread_after_henyey_and_greenstein(way):
 @pytest.mark.parametrize("sky", [0.0, 0.4, 1.0])
 def test_flame_light_follows_the_smoke_around_and_not_the_extinction_of_a_voxel(sky):
     """A share by extinction drew dark lines where smoke is thin between voxels."""
-    lit = light(glow=(2.0, 1.0, 0.5), thin=0.1)
+    white = np.array([0.9, 0.8, 0.7])
+    lit = light(old=white, fresh=white, glow=(2.0, 1.0, 0.5), thin=0.1)
     for thickness in (0.001, 0.02):
         found = volume.march([slab(thickness, sky=sky, glow=0.5)], *along_x([FAR]), lit)[0, 0]
         share = 1.0 - 0.9 * sky
         assert found[:3] / (1.0 - found[3]) == pytest.approx(
-            0.5 * share * np.array([2.0, 1.0, 0.5]), rel=2e-3
+            0.5 * share * white * np.array([2.0, 1.0, 0.5]), rel=2e-3
         )
 
 

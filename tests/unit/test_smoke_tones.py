@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from firetwin.shot.fire import emissions
 from firetwin.shot.fire.heat_release import Sources
+from firetwin.shot.terrain import noise
 from firetwin.smoke import tones
 
-CELL, SHAPE, WHITE = 100.0, (20, 30), 600.0
+CELL, SHAPE, AGES = 100.0, (20, 30), (20.0, 600.0)
 
 
 def shot(*places, wind=(0.0, 0.0), kinds=None):
@@ -50,7 +51,7 @@ def test_flames_of_grass_are_pale():
 
 def test_without_sources_smoke_keeps_its_age():
     age = np.full((2, *SHAPE), 30.0, np.float32)
-    assert tones.apparent_age(shot(), 0.0, age, (0.0, 0.0), CELL, WHITE) is age
+    assert tones.apparent_age(shot(), 0.0, age, (0.0, 0.0), CELL, AGES) is age
 
 
 def test_smoke_downwind_has_the_tone_of_its_source():
@@ -59,6 +60,15 @@ def test_smoke_downwind_has_the_tone_of_its_source():
     age[0, 5, 15] = 100.0  # emitted 10 cells upwind, over the flames
     age[0, 5, 16] = 10.0  # emitted a cell upwind, where fuel smoulders
     made = shot((5, 5, 1.0), (5, 15, 0.0), wind=wind)
-    found = tones.apparent_age(made, 0.0, age, (0.0, 0.0), CELL, WHITE)
+    found = tones.apparent_age(made, 0.0, age, (0.0, 0.0), CELL, AGES)
     assert found[0, 5, 15] == pytest.approx(100.0)
-    assert found[0, 5, 16] == pytest.approx(10.0 + 0.62 * WHITE)
+    assert found[0, 5, 16] == pytest.approx(AGES[1])
+
+
+def test_half_of_the_smoke_from_flames_makes_half_of_the_dark_share():
+    """Ages past those of the tone stay, as the vapour of a cap evaporates by them."""
+    age = np.broadcast_to(np.array([0.0, 200.0, 400.0, 1500.0], np.float32)[:, None, None], (4, *SHAPE))
+    found = tones.apparent_age(shot((0, 0, 1.0), (19, 29, 0.0)), 0.0, age, (0.0, 0.0), CELL, AGES)[:, 10, 15]
+    dark = 1.0 - noise.smoothstep(*AGES, age[:, 10, 15])
+    assert 1.0 - noise.smoothstep(*AGES, found) == pytest.approx(0.5 * dark, abs=1e-5)
+    assert found[3] == 1500.0

@@ -90,7 +90,8 @@ def _solved_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> 
     part, air = haze.fraction(tree, stage)
     light = sunlit.source_function(tree, shot, smoke.albedo, smoke.even)
     if glow := _glow(tree, shot):
-        light = tree.vector("ADD", light, tree.vector("SCALE", *glow))
+        shine = tree.vector("MULTIPLY", smoke.albedo, tree.vector("SCALE", *glow))
+        light = tree.vector("ADD", light, shine)
     emission = tree.add_shader(
         _absorb(tree, smoke.density), tree.emission(tree.mix_colour(part, light, air), smoke.density)
     )
@@ -109,6 +110,7 @@ def _traced_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> 
     light = tree.emission(air, part * smoke.density)
     if glow := _glow(tree, shot):
         shine, bright = glow
+        shine = tree.vector("MULTIPLY", smoke.albedo, shine)
         light = tree.add_shader(light, tree.emission(shine, bright * (1.0 - part) * smoke.density))
     scattered = tree.mix_colour(part, smoke.albedo, (0.0, 0.0, 0.0))
     detailed = tree.add_shader(material.smoke_shader(tree, smoke.density, scattered, smoke.even), light)
@@ -131,7 +133,7 @@ def _absorb(tree: nodes.Tree, density: nodes.Value) -> nodes.Value:
 
 
 def _glow(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value] | None:
-    """Return colour and strength of the flames' light in smoke, if it is dark enough to be visible.
+    """Return colour and strength of the flames' light in white smoke, if it is dark enough to be visible.
 
     Smoke with other smoke around it scatters more of it, as in `firetwin_core.volume.march`.
     """

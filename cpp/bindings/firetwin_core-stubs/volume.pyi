@@ -356,6 +356,14 @@ class SparseSmoke:
     @property
     def used(self) -> int:
         """Number of stored blocks."""
+    def dim_glow(self, part: float) -> None:
+        """Dim the glow by the smoke below, as most flames are on the ground.
+
+        Parameters
+        ----------
+        part
+            Factor on the optical depth down to the ground. It is summed up on voxels of twice the size.
+        """
 
 class LitSmoke:
     """Sparse smoke with sunlight and skylight; `smoke_light` is the equivalent for dense smoke."""
