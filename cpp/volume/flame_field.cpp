@@ -343,8 +343,9 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   sheet = sheet < 0.0F ? -sheet : sheet;
   clamp_lanes(1.0F - sheet * folds, 0.0F, 1.0F, sheet);
   sheet *= sheet;
-  // Folds that are too small to be drawn: mean extinction, and nearly the light of the hottest.
-  const Lanes bright = grains > 0.01F ? sheet : Lanes{} + 0.55F;
+  // Folds that are too small to be drawn: mean extinction, and light of the hottest and of all
+  // heights.
+  const Lanes bright = grains > 0.01F ? sheet : Lanes{} + 1.1F;
   sheet = grains > 0.01F ? sheet : Lanes{} + 0.4F;
   clamp_lanes(value, 0.0F, 1.2F, core);
   // Hot where fuel gas burns, at the foot and in patches; cool where soot has radiated its heat.
@@ -354,6 +355,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
                       (1.0F + 0.35F * gaps * rooted) +
                   patches * patch + 0.15F * rooted,
               0.0F, 1.0F, out.heat);
+  out.heat = grains > 0.01F ? out.heat : 0.5F + 0.25F * (out.heat - 0.5F);
   Lanes begin, end, thick;
   smooth_lanes(share, 0.55F, 1.3F, begin);
   smooth_lanes(share, FlameTiles::soot_top, 1.4F, end);
