@@ -18,7 +18,7 @@ Value = TypeVar("Value", float, NDArray[np.float64])
 
 _SUN = 11.1  # W/m2 above the atmosphere
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-# W/m2 of a full moon, and of a moonless sky: brighter than real, so that land shows beside flames; by eye
+# W/m2 of a full moon, and of a moonless sky: brighter than real, for land visible near flames; by eye
 _MOON, _STARS = 0.06, 0.02
 # radiance added to sky and haze by a full moon, relative to a moonless sky, at dusk and by night (by eye)
 _MOONLIT = 5.0, 1.5
