@@ -26,6 +26,7 @@ RUN = (
     "pipelines.md",
     "api.md",
     "install.md",
+    "walk.md",
 )
 """Pages whose commands and Python `tests/system/test_documented_commands.py` runs."""
 _BLOCK = re.compile(

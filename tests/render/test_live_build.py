@@ -41,7 +41,7 @@ def _smoke(shot, stage, *_):
 
 @pytest.fixture(scope="module")
 def pictures(factory, run_folder, tmp_path_factory):
-    """Pictures without and with the add-on, each from a process of its own."""
+    """Pictures without and with the add-on, each from a separate process."""
 
     def make(folder):
         (folder / "scene.toml").write_text(_text(run_folder))

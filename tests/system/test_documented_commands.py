@@ -198,6 +198,12 @@ def test_the_command_on_installation_runs(capsys):
     assert re.fullmatch(r"firetwin \d+\.\d+\.\d+.*", capsys.readouterr().out.splitlines()[0])
 
 
+def test_the_command_on_a_walk_runs(folder, capsys):
+    assert [words[:3] for words in run_page("docs/walk.md")] == [["build", "SCENE.toml", "--live"]]
+    assert Path("walk.blend").is_file()
+    assert re.search(r"live scene: \d\.\d\d million triangles, 0 instances", capsys.readouterr().err)
+
+
 def test_each_listed_page_is_run():
     named = set(re.findall(r'"docs/([a-z]+\.md)"', Path(__file__).read_text("utf-8")))
     assert named == set(RUN)
