@@ -7,7 +7,7 @@ import bpy
 import firetwin
 import pytest
 import views
-from firetwin.scene.live import cost, hidden, switch
+from firetwin.scene.live import cost, hidden_parts, switch
 from firetwin.ui import frame_clock
 from firetwin.ui.viewport import facts, overlay, panel, redraws
 
@@ -69,7 +69,7 @@ def test_measuring_counts_both_scenes_and_drawing_counts_nothing(live, monkeypat
 def test_reasons_are_read_once_after_a_change(live, monkeypatch):
     calls = []
     monkeypatch.setattr(
-        hidden, "why_not_drawn", lambda scene, layer: [f"reason {calls.append(0) or len(calls)}"]
+        hidden_parts, "why_not_drawn", lambda scene, layer: [f"reason {calls.append(0) or len(calls)}"]
     )
     facts._changed()
     assert "reason 1" in drawn(live)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import bpy
 
 from ...blender import viewport
-from ...scene.live import cost, hidden, switch
+from ...scene.live import cost, hidden_parts, switch
 
 
 @dataclass
@@ -46,7 +46,7 @@ def reasons(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> list[str]:
     key = scene.session_uid, scene.frame_current, layer.name
     if key not in _reasons:
         _reasons.clear()
-        _reasons[key] = hidden.why_not_drawn(scene, layer)
+        _reasons[key] = hidden_parts.why_not_drawn(scene, layer)
     return _reasons[key]
 
 

@@ -5,7 +5,7 @@ import pytest
 from firetwin.blender import owned
 from firetwin.scene import build
 from firetwin.scene.forest import preview
-from firetwin.scene.live import hidden, switch
+from firetwin.scene.live import hidden_parts, switch
 from firetwin.scene.smoke import volume_files
 from live_scene import *  # noqa: F403
 from smoke_scene import write
@@ -33,7 +33,7 @@ def drawn(scene):
 
 def reasons(scene, start):
     """Reasons that begin with these words."""
-    return [text for text in hidden.why_not_drawn(scene) if text.startswith(start)]
+    return [text for text in hidden_parts.why_not_drawn(scene) if text.startswith(start)]
 
 
 def hide_collection(stage, name, on):
@@ -73,7 +73,9 @@ def test_a_hidden_collection_is_not_drawn(live_stage, name, thing, hide, word):
 def test_without_the_root_nothing_is_drawn(live_stage):
     scene = live_stage.scene
     live_stage.root.hide_viewport = True
-    assert hidden.why_not_drawn(scene) == ["Firetwin is hidden: its collection is disabled in viewports"]
+    assert hidden_parts.why_not_drawn(scene) == [
+        "Firetwin is hidden: its collection is disabled in viewports"
+    ]
     assert not [name for name in drawn(scene) if name.startswith("Firetwin")]
 
 
@@ -93,14 +95,14 @@ def test_the_live_scene_replaces_four_parts_alone(live_stage):
     """Their objects are not drawn, and a hidden part of the others is still told."""
     scene = live_stage.scene
     switch.show_live(scene, True)
-    assert hidden.why_not_drawn(scene) == [hidden.LIVE]
+    assert hidden_parts.why_not_drawn(scene) == [hidden_parts.LIVE]
     replaced = {obj.name for name in switch.REPLACED for obj in live_stage.objects_of(name)}
     assert replaced
     assert not replaced & drawn(scene)
     assert {obj.name for obj in live_stage.objects_of("Live")} <= drawn(scene)
     part(live_stage, "Light").hide_viewport = True
-    assert hidden.why_not_drawn(scene) == [hidden.LIVE, *reasons(scene, "Light is hidden")]
-    assert len(hidden.why_not_drawn(scene)) == 2
+    assert hidden_parts.why_not_drawn(scene) == [hidden_parts.LIVE, *reasons(scene, "Light is hidden")]
+    assert len(hidden_parts.why_not_drawn(scene)) == 2
 
 
 def test_a_large_forest_has_fewer_plants(near_shot, scene, plain_looks, monkeypatch):
@@ -117,7 +119,7 @@ def test_lights_of_near_flames_are_in_renders_only(stage):
     """Their object is not a plant, and no camera sees it."""
     cards = owned.add(stage.part("Fire"), "Flame Light", bpy.data.meshes.new("cards"))
     cards.hide_viewport, cards.visible_camera = True, False
-    assert hidden.why_not_drawn(stage.scene) == [
+    assert hidden_parts.why_not_drawn(stage.scene) == [
         "Firetwin Flame Light lights renders only: 3D views would show its cards"
     ]
 
@@ -138,4 +140,4 @@ def test_smoke_without_a_volume_is_told(run_folder, tmp_path):
 
 
 def test_without_a_scene_there_is_a_remedy(scene):
-    assert hidden.why_not_drawn(scene) == ["Nothing is built in this scene: press Build scene"]
+    assert hidden_parts.why_not_drawn(scene) == ["Nothing is built in this scene: press Build scene"]
