@@ -12,6 +12,7 @@ from firetwin.render import engine, integrated, layers, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
 from firetwin.scene import build, infrared
+from firetwin.scene.smoke import shadow
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.passes import masks as masks_pass
@@ -127,14 +128,33 @@ def test_smoke_has_no_grain(film):
     assert np.abs(first["rgb"] - second["rgb"])[~hidden].mean() > 1e-3
 
 
-def test_only_shadow_rays_meet_the_shadow_of_smoke(film):
+def test_rays_from_surfaces_meet_the_shadow_of_smoke(film):
     film("depth")
     (thing,) = (each for each in bpy.data.objects if each.name == "Firetwin Smoke Shadow")
     assert thing.visible_shadow
-    assert not any(
-        getattr(thing, f"visible_{ray}")
-        for ray in ("camera", "diffuse", "glossy", "transmission", "volume_scatter")
-    )
+    assert thing.visible_diffuse, "rays that leave the ground find the sky"
+    assert thing.visible_transmission, "so do rays through leaves"
+    assert not any(getattr(thing, f"visible_{ray}") for ray in ("camera", "glossy", "volume_scatter"))
+
+
+def test_smoke_dims_skylight_on_the_ground(film, monkeypatch):
+    cast = shadow.Shadow.cast
+
+    def ground(skylight, *names):
+        def dim(surface, stage, smoke):
+            cast(surface, stage, smoke)
+            pixels = np.zeros((*surface.places.shape[:2], 4), np.float32)
+            pixels[..., 1] = skylight
+            surface.image.pixels.foreach_set(pixels.ravel())
+            surface.image.update()
+
+        monkeypatch.setattr(shadow.Shadow, "cast", dim)
+        made = film(*names)
+        clear = (made["masks"][..., 1] > 0.95) & (made["masks"][..., 0] == masks_pass.GROUND)
+        assert clear.any()
+        return made["rgb"][clear].mean()
+
+    assert ground(0.0, "rgb", "masks") < 0.98 * ground(1.0, "masks", "rgb"), "haze is most of it"
 
 
 def test_settings_decide_how_smoke_is_drawn(near_settings, run):

@@ -1,9 +1,9 @@
-"""Shadow of ray-marched smoke: a surface above the ground that is visible to shadow rays only.
+"""Shadow of ray-marched smoke: a surface above the ground that rays of light pass through, dimmed.
 
-Its transmittance is computed through the smoke above it: along the sun's direction for rays to the sun, and
-for others the mean of five directions, each for a fifth of the sky. Objects taller than this surface
-(`_OVER`) get no smoke shadow. Smoke beyond its sides is ignored: next to a column the ground is a little too
-bright.
+Rays to lamps, and those from surfaces that find the sky, meet it; cameras do not. Its transmittance is
+computed through the smoke above it: along the sun's direction for rays to the sun, and for others the mean of
+five directions, each for a fifth of the sky. Objects taller than this surface (`_OVER`) get no smoke shadow.
+Smoke beyond its sides is ignored: next to a column the ground is a little too bright.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
     material = _material(image, low, texel * np.array([len(x), len(y)]))
     collection = owned.child(stage.root, NAME)
     obj = owned.add(collection, NAME, _mesh(places[::_MESH, ::_MESH], material))
-    for ray in ("camera", "diffuse", "glossy", "transmission", "volume_scatter"):
+    for ray in ("camera", "glossy", "volume_scatter"):
         setattr(obj, f"visible_{ray}", False)
     return Shadow(image, material, places)
 
