@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import bpy
 
@@ -31,20 +31,24 @@ def why_not_drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer | None = No
     others = {switch.COLLECTION, *(switch.REPLACED if live else ())}
     for part in stage.root.children:
         if part.all_objects and str(part.get(owned.MARK, "")) not in others:
-            told += _why_hidden(part, layer)
+            told += _why_hidden(part, layer, switch.replaced_objects(stage) if live else [])
     if not live and volume_files.missing(stage, [scene.frame_current]):
         told.append(f"Smoke of frame {scene.frame_current} has no volume yet: press Smoke of frame")
     return told
 
 
-def _why_hidden(part: bpy.types.Collection, layer: bpy.types.ViewLayer) -> Iterator[str]:
-    """Iterate over reasons why 3D views do not draw a part of the scene, or some of its objects."""
+def _why_hidden(
+    part: bpy.types.Collection, layer: bpy.types.ViewLayer, replaced: Sequence[bpy.types.Object]
+) -> Iterator[str]:
+    """Iterate over reasons why 3D views do not draw a part of the scene, or some objects not replaced."""
     name = str(part.get(owned.MARK, part.name))
     if reason := _why_collection_hidden(part, layer):
         yield f"{name} is hidden: {reason}"
         return
     for obj in part.all_objects:
-        if owned.is_ours(obj) and not obj.hide_render and (reason := _why_object_hidden(obj, name, layer)):
+        if obj in replaced or obj.hide_render or not owned.is_ours(obj):
+            continue
+        if reason := _why_object_hidden(obj, name, layer):
             yield f"{obj.name} {reason}"
 
 

@@ -49,13 +49,24 @@ def show_live(scene: bpy.types.Scene, on: bool) -> None:
     for name in REPLACED:
         for part in _parts(stage, name):
             part.hide_viewport = on
-    marks = {str(obj.get(owned.MARK)) for obj in live.all_objects}
-    for obj in list(stage.root.all_objects):
-        if any(owned.is_ours(obj, name) for name in _LETTERED):
-            obj.hide_viewport = on and LABELS in marks
+    replaced = replaced_objects(stage)
+    for obj in _single(stage):
+        obj.hide_viewport = on and obj in replaced
+
+
+def replaced_objects(stage: Stage) -> list[bpy.types.Object]:
+    """Return objects of other parts of the film's scene that the live scene replaces: letters and sun."""
+    live = collection(stage.scene)
+    marks = {str(obj.get(owned.MARK)) for obj in live.all_objects} if live is not None else set()
     sun = film_sun(stage)
-    if sun is not None:
-        sun.hide_viewport = on and SUN in marks
+    return [obj for obj in _single(stage) if (SUN if obj == sun else LABELS) in marks]
+
+
+def _single(stage: Stage) -> list[bpy.types.Object]:
+    """Return the objects of other parts of the film's scene that a live scene can replace."""
+    lettered = (obj for obj in stage.root.all_objects if any(owned.is_ours(obj, name) for name in _LETTERED))
+    sun = film_sun(stage)
+    return [*lettered, *([] if sun is None else [sun])]
 
 
 def film_sun(stage: Stage) -> bpy.types.Object | None:
