@@ -112,8 +112,7 @@ def _advance(integrator: Integrator, time: float) -> None:
     left = time - integrator.now
     count = math.ceil(left / integrator.scale.step - 1e-9)
     for _ in range(count):
-        reached = np.searchsorted(integrator.ends, integrator.solvers[0].time + 1e-6, "right")
-        integrator.step = min(int(reached), len(integrator.steps)) - 1
+        integrator.find_step()
         integrator.advance(left / count)
 
 

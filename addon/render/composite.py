@@ -118,8 +118,7 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     white
         Radiance that is white in the picture, if the light of flames in gaps is to be softened.
     """
-    share = _coverage(surfaces, distances)
-    share = share[..., None]
+    share = _coverage(surfaces, distances)[..., None]
     smoke, through = marched[..., :3], marched[..., 3:4]
     flamelight = marched[..., 4:7] if marched.shape[-1] > 4 else np.zeros_like(smoke)
     near, far, flames = (through[:, :, k] for k in range(3))

@@ -44,8 +44,11 @@ def render(
     For each eye: its number (-1 left, 1 right, or 0 for mono), and its channels by pass.
     """
     layers.select(scene, names)
-    shaders = layers.black_materials(scene, names), light_only(names, infrared)
-    with engine.pixel_centres(scene, centres), shaders[0], shaders[1]:
+    with (
+        engine.pixel_centres(scene, centres),
+        layers.black_materials(scene, names),
+        light_only(names, infrared),
+    ):
         return render_selected(scene, names, folder)
 
 

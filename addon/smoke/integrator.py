@@ -110,6 +110,11 @@ class Integrator:
             cost += np.where(left <= self.lead + 1e-6, each, 0.0)
         return np.round(np.concatenate([[0.0], np.cumsum(cost)])).astype(np.int64)
 
+    def find_step(self) -> None:
+        """Set the scheduled step, whose sources are used, by the present time: for steps of other lengths."""
+        reached = np.searchsorted(self.ends, self.solvers[0].time + 1e-6, "right")
+        self.step = min(int(reached), len(self.steps)) - 1
+
     def advance(self, dt: float) -> None:
         """Advance all domains by `dt` s."""
         self._update_sources()

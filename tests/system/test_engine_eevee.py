@@ -105,19 +105,24 @@ print(json.dumps(found))
 """
 
 
-@pytest.mark.slow
-def test_live_labels_turn_to_each_eye_and_have_one_angle(run_folder, tmp_path):
-    (tmp_path / "places.csv").write_text("name,latitude,longitude\nHILL,38.840,-120.555\n")
-    places = '[labels]\nenabled = true\nfile = "places.csv"\nsize = 0.2\n'
-    (tmp_path / "scene.toml").write_text(SCENE.format(run=run_folder) + places)
+def rendered(code, folder):
+    """Run a program that renders with EEVEE the scene of a folder; return what it prints last, as JSON."""
     result = subprocess.run(
-        [sys.executable, "-c", LABELS, str(tmp_path / "scene.toml"), str(tmp_path / "label.exr")],
+        [sys.executable, "-c", code, str(folder / "scene.toml"), str(folder / "picture.exr")],
         env=worker._environment(eevee=True),
         capture_output=True,
         text=True,
     )
     assert result.returncode == 0, result.stderr
-    first, second = json.loads(result.stdout.strip().splitlines()[-1])
+    return json.loads(result.stdout.strip().splitlines()[-1])
+
+
+@pytest.mark.slow
+def test_live_labels_turn_to_each_eye_and_have_one_angle(run_folder, tmp_path):
+    (tmp_path / "places.csv").write_text("name,latitude,longitude\nHILL,38.840,-120.555\n")
+    places = '[labels]\nenabled = true\nfile = "places.csv"\nsize = 0.2\n'
+    (tmp_path / "scene.toml").write_text(SCENE.format(run=run_folder) + places)
+    first, second = rendered(LABELS, tmp_path)
     for one, other in zip(first, second, strict=True):
         assert len(one) > 5
         assert abs(one[0] - other[0]) <= 1
@@ -127,14 +132,7 @@ def test_live_labels_turn_to_each_eye_and_have_one_angle(run_folder, tmp_path):
 @pytest.mark.slow
 def test_eevee_gives_black_bodies_back_and_a_pixel_of_two_as_the_mean_of_radiance(run_folder, tmp_path):
     (tmp_path / "scene.toml").write_text(SCENE.format(run=run_folder))
-    result = subprocess.run(
-        [sys.executable, "-c", PLATES, str(tmp_path / "scene.toml"), str(tmp_path / "plates.exr")],
-        env=worker._environment(eevee=True),
-        capture_output=True,
-        text=True,
-    )
-    assert result.returncode == 0, result.stderr
-    radiance, kelvin = (np.array(each) for each in json.loads(result.stdout.strip().splitlines()[-1]))
+    radiance, kelvin = map(np.array, rendered(PLATES, tmp_path))
     print(radiance, kelvin)
     expected = [float(sensor.radiance(each)) for each in (300.0, 1200.0, 1000.0)]
     # EEVEE's pixels are half floats, cut off after 11 bits: radiance is off by 1/1024 of itself at most.

@@ -12,10 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from ...blender import owned
 from ...blender.owned import Stage
 
-_GROUNDS = (
-    f"{owned.ROOT} Ground",
-    f"{owned.ROOT} Live Ground",
-)  # of the film's scene and of the live scene, of which one is hidden
+# of the film's scene and of the live scene, of which one is hidden
+_GROUNDS = f"{owned.ROOT} Ground", f"{owned.ROOT} Live Ground"
 _SKY = 50_000.0  # m, above any terrain
 
 

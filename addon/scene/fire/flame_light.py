@@ -3,8 +3,8 @@
 A pair of crossed cards is placed at each flame that burns now, and emits the light of the heat that this part
 of the front releases (`flames.Points.heat`). It flickers at the puffing frequency of a flame of its size, f =
 0.5 sqrt(g / D) (B. M. Cetegen and T. A. Ahmed 1993, Combustion and Flame 93, 157-184), as a function of time
-and place alone. Thick flames are as bright as those that the picture shows, with gaps between them. Lamps
-represent the flames farther away (see `lamps`).
+and place alone. Thick flames are as bright as drawn flames with some gaps. Lamps represent the
+flames farther away (see `lamps`).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ LIGHT = 2.0e-2
 """W of the scene's light per radiated W of thin flames; by eye, as bright as drawn flames are.
 It is 5e-5 for flames of 18 m with 15,000 cd/m2, half of them gaps, and a radiosity of 61 kW/m2, if a
 luminance of 1 is 16,000 cd/m2; 4e-4 for flames of 2 to 5 m."""
-THICK = 0.8  # radiance of thick flames, with some gaps, relative to that of drawn flames
+THICK = 0.8  # radiance of thick flames over the radiance of drawn flames, for some gaps
 COLOUR = (1.0, 0.36, 0.06)
 LAYOUT = flames.Layout(((REACH[1], 4.0),), gaps=False)
 """Denser than billboards, without gaps: surfaces near the front are lit evenly along it."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
 
 from ...blender import nodes
@@ -13,7 +15,8 @@ from .. import flame_field, glow, haze, infrared
 
 _DIMMED = 0.2  # factor on the emission at the shorter distance of `glow.CLOSE`
 _FULL = 0.5, (1.5, 10.0)  # factor on the emission of low flames, which are thin; lengths, m
-_RISE = 9.0  # m/s, rise velocity of the pattern
+RISE = 9.0  # m/s, rise velocity of the pattern
+RAGGED = 2.6  # strength of the turbulence that tears a flame
 
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
@@ -28,8 +31,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
         )
     )
     bright = tree.input("Brightness", glow.brightness(shot), "Radiance of the hottest part", "Light")
-    speed = tree.input("Rise", _RISE, "Speed (m/s) at which the pattern rises", "Motion")
-    ragged = tree.input("Raggedness", 2.6, "How much turbulence tears a flame", "Shape")
+    speed = tree.input("Rise", RISE, "Speed (m/s) at which the pattern rises", "Motion")
+    ragged = tree.input("Raggedness", RAGGED, "How much turbulence tears a flame", "Shape")
     across, up, _ = tree.separate(tree.attribute("card", output="Vector"))
     seed = tree.attribute("seed", "INSTANCER")
     length = tree.attribute("flame_length", "INSTANCER")
@@ -44,12 +47,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     centre = across + sway * up * 1.5
     narrow = (1.0 - up).power(0.65) * 0.95
     body = 1.0 - tree.math("ABSOLUTE", centre) / tree.math("MAXIMUM", narrow, 0.02)
-    torn = body + (tongue - 0.5) * ragged - up.power(1.5) * 0.75
-    shape = torn.smoothstep(0.05, 0.75) * up.smoothstep(0.0, 0.06) * up.smoothstep(1.0, 0.85)
+    shape, hot, colour = tear(tree, body, tongue, up, ragged, (rim, middle, core))
     drawn = flame_field.share(tree, stage)
-    hot = (torn - up * 0.4).smoothstep(0.5, 1.5)
-    colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), rim, middle)
-    colour = tree.mix_colour(hot, colour, core)
     strength = shape.power(1.3) * (0.35 + hot * 0.65) * bright * drawn
     strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(
         *glow.CLOSE, _DIMMED, 1.0
@@ -73,3 +72,34 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     tree.surface(nodes.switch(tree, nodes.MASKS, shader, whole))
     material.cycles.emission_sampling = "NONE"
     return material
+
+
+def tear(
+    tree: nodes.Tree,
+    body: nodes.Value,
+    tongue: nodes.Value,
+    up: nodes.Value,
+    ragged: nodes.Value | float,
+    colours: Sequence[nodes.Value | tuple[float, float, float]],
+) -> tuple[nodes.Value, nodes.Value, nodes.Value]:
+    """Tear a flame by noise: return its coverage 0..1, its heat 0..1 and its colour.
+
+    Parameters
+    ----------
+    body
+        1 in the middle of the flame, 0 at its sides.
+    tongue
+        Noise 0..1.
+    up
+        Height in the flame, 0..1.
+    ragged
+        Strength of the noise.
+    colours
+        Of the rim, the body and the core.
+    """
+    rim, middle, core = colours
+    torn = body + (tongue - 0.5) * ragged - up.power(1.5) * 0.75
+    shape = torn.smoothstep(0.05, 0.75) * up.smoothstep(0.0, 0.06) * up.smoothstep(1.0, 0.85)
+    hot = (torn - up * 0.4).smoothstep(0.5, 1.5)
+    colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), rim, middle)
+    return shape, hot, tree.mix_colour(hot, colour, core)

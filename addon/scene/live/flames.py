@@ -17,6 +17,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze
 from ..fire import flames
+from ..fire.material import RAGGED, RISE, tear
 from ..forest.stand import Stand
 from ..glow import BODY, CLOSE, CORE, RIM, brightness
 from . import viewers
@@ -24,7 +25,6 @@ from . import viewers
 SHARE = 0.06
 """Share of the scene's triangles."""
 _SHEETS = 2
-_RISE = 9.0  # m/s
 _BRIGHT = 0.4  # factor on the radiance: sheets add up (by eye)
 _DIMMED = 0.3  # further factor close by
 _HIDES = 0.5  # opacity of flames
@@ -89,15 +89,13 @@ def _material(shot: Shot, stage: Stage) -> bpy.types.Material:
     alive = (part > 0.0) * (part < 1.0)
     tall = part.ramp(0.0, 0.2, 0.25, 1.0) * part.ramp(0.6, 1.0, 1.0, 0.2)
     high = up / tall
-    rise = (time - shot.frames.first) * _RISE / tree.math("MAXIMUM", length, 4.0)
+    rise = (time - shot.frames.first) * RISE / tree.math("MAXIMUM", length, 4.0)
     place = tree.combine(across * 1.6 + seed * 431.0, high * 1.8 - rise, seed * 97.0 + time * 0.23)
     tongue = tree.noise(place, 1.0, 2.0, 0.6)
     narrow = tree.math("MAXIMUM", 1.0 - high, 0.0).power(0.65)
     body = 1.0 - tree.math("ABSOLUTE", across) / tree.math("MAXIMUM", narrow, 0.02)
-    torn = body + (tongue - 0.5) * 2.6 - high.power(1.5) * 0.75
-    shape = torn.smoothstep(0.05, 0.75) * high.smoothstep(0.0, 0.06) * high.smoothstep(1.0, 0.85) * alive
-    hot = (torn - high * 0.4).smoothstep(0.5, 1.5)
-    colour = tree.mix_colour(hot, tree.mix_colour(shape.smoothstep(0.15, 0.8), RIM, BODY), CORE)
+    shape, hot, colour = tear(tree, body, tongue, high, RAGGED, (RIM, BODY, CORE))
+    shape = shape * alive
     near = tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, _DIMMED, 1.0)
     air, _ = haze.fraction(tree, stage)
     bright = tree.input("Brightness", _BRIGHT * brightness(shot), "Radiance of the hottest part", "Light")

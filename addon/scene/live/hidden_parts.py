@@ -28,10 +28,11 @@ def why_not_drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer | None = No
         return [f"Firetwin is hidden: {reason}"]
     live = switch.is_live(scene)
     told = [LIVE] if live else []
+    replaced = switch.replaced_objects(stage) if live else []
     others = {switch.COLLECTION, *(switch.REPLACED if live else ())}
     for part in stage.root.children:
         if part.all_objects and str(part.get(owned.MARK, "")) not in others:
-            told += _why_hidden(part, layer, switch.replaced_objects(stage) if live else [])
+            told += _why_hidden(part, layer, replaced)
     if not live and volume_files.missing(stage, [scene.frame_current]):
         told.append(f"Smoke of frame {scene.frame_current} has no volume yet: press Smoke of frame")
     return told

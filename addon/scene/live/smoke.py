@@ -20,6 +20,7 @@ from ...progress import MessageCallback, Progress
 from ...shot.shot import Shot
 from .. import haze
 from ..smoke import illumination
+from ..smoke.shadow import mean_transmittance
 from ..terrain.fields import byte_image
 from . import smoke_grid, viewers
 from .shade import Shade
@@ -81,7 +82,7 @@ def bake(shot: Shot, stage: Stage, progress: Progress, tell: MessageCallback) ->
             for of_axis, each in zip(slabs, smoke_grid.bake(grid, layers, light), strict=True):
                 of_axis.append(each)
             sun, part = illumination.sun_direction(stage), illumination.light_ray_factor(stage)
-            shadow.append(smoke_grid.sun_left(layers, places, sun, part))
+            shadow.append(mean_transmittance(layers, places, [sun], part))
         progress(len(frames), len(frames), "live smoke")
     scene.frame_set(now)
     return Smoke(grid, shot.frames.times[np.array(frames) - 1], slabs, np.stack(shadow), low, high)
@@ -116,7 +117,7 @@ def shade(smoke: Smoke) -> Shade:
     place = tree.output("NodeGroupInput", name="Position")
     x, y, _ = tree.separate(tree.vector("MULTIPLY_ADD", place, (*size, 0.0), (*(-smoke.low * size), 0.0)))
     rim = 0.5 / columns
-    u = tree.math("MINIMUM", tree.math("MAXIMUM", x, rim), 1.0 - rim)
+    u = x.ramp(rim, 1.0 - rim, rim, 1.0 - rim)
     left = _between(tree, smoke, image, u / moments, y)[0]
     inside = (x > 0.0) * (x < 1.0) * (y > 0.0) * (y < 1.0)
     tree.finish({"Light": tree.mix(inside, 1.0, left.ramp(0.0, 1.0, _SHADE, 1.0))})
@@ -223,9 +224,8 @@ def _between(
 ) -> tuple[nodes.Value, nodes.Value]:
     """Return colour and alpha of a picture of moments at the scene's time; `u` is within the first moment."""
     moments = len(smoke.times)
-    span = max(float(smoke.times[-1] - smoke.times[0]), 1.0e-3)
-    at = (nodes.model_time(tree) - float(smoke.times[0])) * ((moments - 1) / span)
-    at = tree.math("MINIMUM", tree.math("MAXIMUM", at, 0.0), moments - 1.0)
+    first, last = float(smoke.times[0]), float(smoke.times[-1])
+    at = nodes.model_time(tree).ramp(first, max(last, first + 1.0e-3), 0.0, moments - 1.0)
     before = tree.math("FLOOR", at)
     after = tree.math("MINIMUM", before + 1.0, moments - 1.0)
     pair = []
@@ -234,5 +234,5 @@ def _between(
         node = tree.node("ShaderNodeTexImage", {"Vector": place}, image=image, extension="EXTEND")
         pair.append((tree.pick(node, "Color"), tree.pick(node, "Alpha")))
     part = at - before
-    (first, clear), (second, dense) = pair
-    return tree.mix_colour(part, first, second), tree.mix(part, clear, dense)
+    (colour, alpha), (next_colour, next_alpha) = pair
+    return tree.mix_colour(part, colour, next_colour), tree.mix(part, alpha, next_alpha)

@@ -158,13 +158,3 @@ def _clear_rim(opacity: NDArray[np.floating]) -> None:
     """Clear the cells at the sides, so that neighbours in a picture do not run into each other."""
     for side in (0, -1):
         opacity[:, side] = opacity[:, :, side] = 0.0
-
-
-def sun_left(
-    layers: list[volume.Bricks], places: Array, toward: list[float], part: float
-) -> NDArray[np.float32]:
-    """Return the part of the sunlight that is left at places (rows, columns, 3)."""
-    flat = places.reshape(-1, 3)
-    way = np.broadcast_to(np.asarray(toward, float), flat.shape)
-    depth = volume.optical_depth(layers, flat, np.ascontiguousarray(way), np.full(len(flat), 1.0e9), 2.0)
-    return np.exp(-part * np.asarray(depth)).reshape(places.shape[:2]).astype(np.float32)

@@ -50,7 +50,7 @@ def show_live(scene: bpy.types.Scene, on: bool) -> None:
         for part in _parts(stage, name):
             part.hide_viewport = on
     replaced = replaced_objects(stage)
-    for obj in _single(stage):
+    for obj in _replaceable(stage):
         obj.hide_viewport = on and obj in replaced
 
 
@@ -59,10 +59,10 @@ def replaced_objects(stage: Stage) -> list[bpy.types.Object]:
     live = collection(stage.scene)
     marks = {str(obj.get(owned.MARK)) for obj in live.all_objects} if live is not None else set()
     sun = film_sun(stage)
-    return [obj for obj in _single(stage) if (SUN if obj == sun else LABELS) in marks]
+    return [obj for obj in _replaceable(stage) if (SUN if obj == sun else LABELS) in marks]
 
 
-def _single(stage: Stage) -> list[bpy.types.Object]:
+def _replaceable(stage: Stage) -> list[bpy.types.Object]:
     """Return the objects of other parts of the film's scene that a live scene can replace."""
     lettered = (obj for obj in stage.root.all_objects if any(owned.is_ours(obj, name) for name in _LETTERED))
     sun = film_sun(stage)

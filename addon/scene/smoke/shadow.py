@@ -59,8 +59,8 @@ class Shadow:
         """Update the shadow to these layers, with the sun of the scene's current frame."""
         toward = illumination.sun_direction(stage)
         part = illumination.light_ray_factor(stage)
-        direct = _mean_transmittance(layers, self.places[::_SUN_EVERY, ::_SUN_EVERY], [toward], part)
-        around = _mean_transmittance(layers, self.places[::_SKY_EVERY, ::_SKY_EVERY], _sky_directions(), part)
+        direct = mean_transmittance(layers, self.places[::_SUN_EVERY, ::_SUN_EVERY], [toward], part)
+        around = mean_transmittance(layers, self.places[::_SKY_EVERY, ::_SKY_EVERY], _sky_directions(), part)
         pixels = np.ones((*self.places.shape[:2], 4), np.float32)
         pixels[..., 0] = _interpolate_texels(direct, _SUN_EVERY, pixels.shape)
         pixels[..., 1] = _interpolate_texels(around, _SKY_EVERY, pixels.shape)
@@ -102,7 +102,7 @@ def _shaded_extent(shot: Shot, boxes: Sequence[Box]) -> tuple[Array, Array]:
     return corners[:, 0].min(axis=0) - margin, corners[:, 1].max(axis=0) + margin
 
 
-def _mean_transmittance(
+def mean_transmittance(
     layers: Sequence[volume.Bricks], places: Array, ways: Sequence[Sequence[float]], part: float
 ) -> NDArray[np.float32]:
     """Return the mean transmittance over directions, to points (rows, columns, 3)."""
