@@ -15,6 +15,8 @@ SHORTCUTS: tuple[tuple[str, str, str, dict[str, bool]], ...] = (
 """Operator, menu (if the operator calls one), key and modifiers."""
 
 _added: list[tuple[Any, Any]] = []
+_created: list[Any] = []
+"""The key map, if no other add-on had made it before."""
 
 
 def register() -> None:
@@ -22,7 +24,10 @@ def register() -> None:
     config = bpy.context.window_manager.keyconfigs.addon
     if config is None:  # Blender in the background
         return
-    keymap = config.keymaps.new(name=_KEYMAP, space_type="VIEW_3D")
+    keymap = config.keymaps.find(_KEYMAP, space_type="VIEW_3D")
+    if keymap is None:
+        keymap = config.keymaps.new(name=_KEYMAP, space_type="VIEW_3D")
+        _created.append(keymap)
     for operator, menu, key, modifiers in SHORTCUTS:
         item = keymap.keymap_items.new(operator, key, "PRESS", **modifiers)
         if menu:
@@ -31,10 +36,14 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove the shortcuts."""
+    """Remove the shortcuts, and their key map unless another add-on had or has keys in it."""
     while _added:
         keymap, item = _added.pop()
         keymap.keymap_items.remove(item)
+    while _created:
+        keymap = _created.pop()
+        if not keymap.keymap_items:
+            bpy.context.window_manager.keyconfigs.addon.keymaps.remove(keymap)
 
 
 def users_items() -> list[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]]:

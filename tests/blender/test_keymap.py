@@ -49,6 +49,37 @@ def test_shortcuts_are_in_the_key_configuration_of_add_ons():
     assert [item.idname for item in items] == [operator for operator, *_ in keymap.SHORTCUTS]
 
 
+def added_by_add_ons():
+    """Key maps of add-ons and their operators."""
+    keymaps = bpy.context.window_manager.keyconfigs.addon.keymaps
+    return {place.name: [item.idname for item in place.keymap_items] for place in keymaps}
+
+
+@pytest.mark.parametrize("when", ["never", "before", "after"])
+def test_key_maps_are_left_as_they_were(when):
+    """Another add-on adds a key to the same key map before or after Firetwin, or never."""
+
+    def other():
+        place = bpy.context.window_manager.keyconfigs.addon.keymaps.new("3D View", space_type="VIEW_3D")
+        return place, place.keymap_items.new("view3d.view_all", "F13", "PRESS")
+
+    keymap.unregister()
+    without = added_by_add_ons()
+    assert "3D View" not in without
+    theirs = other() if when == "before" else None
+    keymap.register()
+    theirs = other() if when == "after" else theirs
+    keymap.unregister()
+    try:
+        assert added_by_add_ons() == without | ({"3D View": ["view3d.view_all"]} if theirs else {})
+    finally:
+        if theirs:
+            theirs[0].keymap_items.remove(theirs[1])
+            bpy.context.window_manager.keyconfigs.addon.keymaps.remove(theirs[0])
+        keymap.register()
+    assert added_by_add_ons()["3D View"] == [operator for operator, *_ in keymap.SHORTCUTS]
+
+
 def flight(monkeypatch, running=("VIEW3D_OT_walk",)):
     """An operator that watches a flight, and its context."""
     monkeypatch.setattr(keymap, "key_of", lambda operator: "K")

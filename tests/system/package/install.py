@@ -1,4 +1,4 @@
-"""Install the extension's zip as a user does, use it, and remove it: ``install.py ZIP``.
+"""Install the extension's zip as a user does, film a frame of the sample run, and remove it: ``install.py ZIP``.
 
 Blender's settings, extensions and files are in a separate folder, which is empty before and after.
 """
@@ -8,29 +8,34 @@ import os
 import site
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "helpers"))
-import small_run
-
 NAME = "bl_ext.user_default.firetwin"
-BUNDLED = ("firetwin_core", "astral", "tomlkit", "tqdm", "tzdata")
-SCENE = """\
+BUNDLED = ("firetwin_core", "astral", "tomlkit", "tqdm", *(["tzdata"] if sys.platform == "win32" else []))
+WIDTH, HEIGHT = 64, 36
+SCENE = f"""\
 run = "run"
-[terrain]
-near_radius = 0.0
-apron = 5000.0
-[forest]
-density = "paper"
-[smoke]
-enabled = false
+time = {{ start = 2014-09-17T23:12:00Z, frames = 1 }}
+forest = {{ draw_distance = 500.0 }}
+smoke = {{ method = "puffs" }}
+render = {{ resolution = [{WIDTH}, {HEIGHT}], samples = 1 }}
 [[cameras]]
 name = "drone"
-[[cameras.keys]]
-latitude = 38.89
-longitude = -120.6
-target = "fire"
+keys = [{{ latitude = 38.977, longitude = -120.572, height = 150.0, target = "head" }}]
 """
+
+
+def keys(bpy):
+    """Every shortcut of every key configuration, and the number of equal ones; key maps without any, too."""
+    shortcuts = Counter()
+    bpy.context.window_manager.keyconfigs.update()
+    for config in bpy.context.window_manager.keyconfigs:
+        for keymap in config.keymaps:
+            place = (config.name, keymap.name, keymap.space_type, keymap.region_type)
+            shortcuts[place] += 1
+            shortcuts.update((*place, item.idname, item.to_string()) for item in keymap.keymap_items)
+    return set(shortcuts.items())
 
 
 def state(bpy):
@@ -46,8 +51,6 @@ def state(bpy):
         if isinstance(found := getattr(bpy.app.handlers, name), list)
         for function in found
     }
-    keys = bpy.context.window_manager.keyconfigs.addon
-    keymaps = keys.keymaps if keys else ()
     return {
         "classes": names(bpy.types),
         "scene properties": names(bpy.types.Scene),
@@ -55,7 +58,7 @@ def state(bpy):
         "window properties": names(bpy.types.WindowManager),
         "operators": set(dir(bpy.ops.firetwin)),
         "handlers": handlers,
-        "keys": {(keymap.name, len(keymap.keymap_items)) for keymap in keymaps},
+        "keys": keys(bpy),
         "add-ons": {addon.module for addon in bpy.context.preferences.addons},
         "known add-ons": {module.__name__ for module in addon_utils.modules()},
         "modules": {name for name in sys.modules if name.startswith("bl_ext.")},
@@ -77,20 +80,34 @@ def same(before, after):
         assert after[what] == names, f"{what}: left behind {after[what] - names}, gone {names - after[what]}"
 
 
+def work_here(task, arguments, progress, *_, tell, **__):
+    """Do a worker's task in this process: Blender as a module cannot start another with its extensions."""
+    module, _, function = task.partition(":")
+    return getattr(importlib.import_module(module), function)(progress=progress, tell=tell, **arguments)
+
+
 def use(bpy, folder):
-    """Build a small scene with the installed package."""
-    (folder / "run").mkdir()
-    (folder / "run/run.toml").write_text(small_run.RUN_TOML)
-    for name, values in small_run.small_fields().items():
-        small_run.write_field(folder / "run", name, values, "npy")
+    """Write the sample run, film a frame of it, and build the same scene, with the installed package."""
+    cli = importlib.import_module(NAME + ".cli")
+    importlib.import_module(NAME + ".jobs.worker").run = work_here
     (folder / "scene.toml").write_text(SCENE)
+    assert cli.main(["sample", str(folder / "run"), "--frames", "3"]) == 0
+    assert cli.main(["info", str(folder / "missing")]) == 1
+    assert cli.main(["render", str(folder / "scene.toml"), "--out", str(folder / "film")]) == 0
+    pictures = sorted((folder / "film").rglob("*.png"))
+    assert pictures, "no picture was rendered"
+    for path in pictures:
+        picture = bpy.data.images.load(str(path))
+        assert tuple(picture.size) == (WIDTH, HEIGHT)
+        tones = {round(value, 3) for value in picture.pixels[::4]}
+        assert len(tones) > 20, f"{path.name} has {len(tones)} tones of red"
+        print(f"rendered: {path.relative_to(folder)}, {path.stat().st_size} bytes, {len(tones)} tones of red")
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.preferences.addon_enable(module=NAME)
     shot = importlib.import_module(NAME + ".shot.source").ShotSource(str(folder / "scene.toml")).shot()
     importlib.import_module(NAME + ".scene.build").build(shot)
     assert [object for object in bpy.data.objects if object.type == "CAMERA"]
-    assert sum(len(mesh.vertices) for mesh in bpy.data.meshes) > 20
-    cli = importlib.import_module(NAME + ".cli")
-    assert cli.main(["info", str(folder / "run")]) == 0
-    assert cli.main(["info", str(folder / "missing")]) == 1
+    assert sum(len(mesh.vertices) for mesh in bpy.data.meshes) > 1000
 
 
 def check_places(resources):
