@@ -73,7 +73,7 @@ if [[ ${1:-} == --libraries ]]; then
 fi
 
 version=$("$portable/tools/bin/python" -c 'import tomllib; print(tomllib.load(open("pyproject.toml", "rb"))["project"]["version"])')
-code=$(find cpp CMakeLists.txt pyproject.toml -type f ! -name '*.pyc' -print0 | sort -z | xargs -0 sha256sum | sha256sum)
+code=$(find cpp CMakeLists.txt pyproject.toml -type f ! -name '*.pyc' ! -path 'cpp/portable/*.py' -print0 | sort -z | xargs -0 sha256sum | sha256sum)
 once module "$code" logged firetwin_core "$portable/logs/module.log" compile
 rm -rf "$portable/wheels"
 for python in $pythons; do

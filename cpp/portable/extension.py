@@ -13,10 +13,13 @@ import shutil
 import subprocess
 import sys
 import tomllib
+import zipfile
+from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-LARGEST = 18_000_000  # bytes
+LARGEST = 40_000_000  # bytes
+WINDOWS_ONLY = ("tzdata",)  # other systems have time zones
 
 
 def blender_ext() -> Path:
@@ -42,6 +45,18 @@ def platform_of(wheel: Path) -> str | None:
         if tag.startswith(start) and tag.endswith(end):
             return name
     sys.exit(f"extension: {wheel.name} is for no system that Firetwin is made for")
+
+
+def choose_wheels(folders: list[Path]) -> tuple[list[Path], str]:
+    """Return the wheels of the folders that the zip contains, and their platform in Blender's words."""
+    every = sorted(wheel for folder in folders for wheel in folder.glob("*.whl"))
+    wheels = [wheel for wheel in every if not wheel.name.startswith("firetwin-")]
+    platforms = sorted({name for name in map(platform_of, wheels) if name})
+    if len(platforms) != 1:
+        sys.exit(f"extension: wheels of the core for one system are needed, not for: {platforms or 'none'}")
+    if not platforms[0].startswith("windows"):
+        wheels = [wheel for wheel in wheels if not wheel.name.startswith(WINDOWS_ONLY)]
+    return wheels, platforms[0]
 
 
 def manifest(wheels: list[Path], platforms: list[str], version: str) -> str:
@@ -70,16 +85,34 @@ def stage(folder: Path, wheels: list[Path], text: str) -> None:
     (folder / "blender_manifest.toml").write_text(text, encoding="utf-8")
 
 
+def check_size(zipped: Path, largest: int = LARGEST) -> int:
+    """Return the bytes of a zip; a larger one ends the program."""
+    size = zipped.stat().st_size
+    if size > largest:
+        sys.exit(f"extension: {zipped} has {size} bytes, more than {largest}")
+    return size
+
+
+def list_content(zipped: Path) -> str:
+    """Return a table of the content: compressed and unpacked bytes, largest first."""
+    packed: Counter[str] = Counter()
+    unpacked: Counter[str] = Counter()
+    for entry in zipfile.ZipFile(zipped).infolist():
+        name = entry.filename
+        large = entry.compress_size > 100_000 or name.endswith(".whl")
+        key = name if large else f"other files of {name.partition('/')[0]}/" if "/" in name else "other files"
+        packed[key] += entry.compress_size
+        unpacked[key] += entry.file_size
+    rows = [f"{size:>12,} {unpacked[key]:>12,}  {key}" for key, size in packed.most_common()]
+    return "\n".join([f"{'bytes':>12} {'unpacked':>12}  content", *rows])
+
+
 def main(out: Path, folders: list[Path]) -> None:
-    """Stage, build and validate the extension; print the file's name last."""
+    """Stage, build and validate the extension; print its content, and the file's name last."""
     version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
-    found = sorted(wheel for folder in folders for wheel in folder.glob("*.whl"))
-    wheels = [wheel for wheel in found if not wheel.name.startswith("firetwin-")]
-    platforms = sorted({name for name in map(platform_of, wheels) if name})
-    if len(platforms) != 1:
-        sys.exit(f"extension: wheels of the core for one system are needed, not for: {platforms or 'none'}")
-    suffix = "" if platforms == ["linux-x64"] else f"-{platforms[0]}"
-    stage(out / "stage", wheels, manifest(wheels, platforms, version))
+    wheels, platform = choose_wheels(folders)
+    suffix = "" if platform == "linux-x64" else f"-{platform}"
+    stage(out / "stage", wheels, manifest(wheels, [platform], version))
     zipped = out / f"firetwin-{version}{suffix}.zip"
     command = [sys.executable, blender_ext()]
     subprocess.run(
@@ -87,10 +120,8 @@ def main(out: Path, folders: list[Path]) -> None:
         check=True,
     )
     subprocess.run([*command, "validate", zipped], check=True)
-    size = zipped.stat().st_size
-    if size > LARGEST:
-        sys.exit(f"extension: {zipped} has {size} bytes, more than {LARGEST}")
-    print(f"extension: {zipped}, {size} bytes")
+    print(list_content(zipped))
+    print(f"extension: {zipped}, {check_size(zipped)} bytes")
 
 
 if __name__ == "__main__":

@@ -122,3 +122,22 @@ def test_blender_installs_either_version(tmp_path, write_zip, present, served, e
             [*client, "install", *places, *versions, *options, "firetwin"], check=True, capture_output=True
         )
         assert (local / "firetwin/__init__.py").read_text() == f"version = {version!r}"
+
+
+def test_a_zip_of_a_byte_too_many_is_refused(tmp_path, extension):
+    zipped = tmp_path / "firetwin.zip"
+    zipped.write_bytes(bytes(1001))
+    assert extension.check_size(zipped, 1001) == 1001
+    with pytest.raises(SystemExit, match="1001 bytes, more than 1000"):
+        extension.check_size(zipped, 1000)
+
+
+def test_only_windows_needs_time_zones(tmp_path, extension):
+    for platform, tag in PLATFORMS.items():
+        (folder := tmp_path / platform).mkdir()
+        names = [f"firetwin_core-1-cp311-cp311-{tag}", "tqdm-1-py3-none-any", "tzdata-1-py2.py3-none-any"]
+        for name in [*names, "firetwin-1-py3-none-any"]:
+            (folder / f"{name}.whl").touch()
+        wheels, chosen = extension.choose_wheels([folder])
+        assert chosen == platform
+        assert [wheel.stem for wheel in wheels] == names[: 3 if platform == "windows-x64" else 2]

@@ -18,7 +18,7 @@ SCENE = f"""\
 run = "run"
 time = {{ start = 2014-09-17T23:12:00Z, frames = 1 }}
 forest = {{ draw_distance = 500.0 }}
-smoke = {{ method = "puffs" }}
+smoke = {{ spin_up = 60.0 }}
 render = {{ resolution = [{WIDTH}, {HEIGHT}], samples = 1 }}
 [[cameras]]
 name = "drone"
@@ -80,7 +80,7 @@ def same(before, after):
         assert after[what] == names, f"{what}: left behind {after[what] - names}, gone {names - after[what]}"
 
 
-def work_here(task, arguments, progress, *_, tell, **__):
+def work_here(task, arguments, progress, tell=print, **_):
     """Do a worker's task in this process: Blender as a module cannot start another with its extensions."""
     module, _, function = task.partition(":")
     return getattr(importlib.import_module(module), function)(progress=progress, tell=tell, **arguments)
@@ -99,7 +99,7 @@ def use(bpy, folder):
     for path in pictures:
         picture = bpy.data.images.load(str(path))
         assert tuple(picture.size) == (WIDTH, HEIGHT)
-        tones = {round(value, 3) for value in picture.pixels[::4]}
+        tones = {round(value, 3) for value in picture.pixels[:][::4]}
         assert len(tones) > 20, f"{path.name} has {len(tones)} tones of red"
         print(f"rendered: {path.relative_to(folder)}, {path.stat().st_size} bytes, {len(tones)} tones of red")
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -129,6 +129,9 @@ def cycle(bpy, zipped, resources, disable_first):
     assert NAME in bpy.context.preferences.addons
     assert "FIRETWIN" in " ".join(dir(bpy.types))
     check_places(resources)
+    new = sorted(files(resources) - clean_files)
+    size = sum((resources / name).stat().st_size for name in new)
+    print(f"installed: {len(new)} files, {size} bytes")
     with tempfile.TemporaryDirectory() as folder:
         use(bpy, Path(folder))
     bpy.ops.wm.read_factory_settings(use_empty=True)  # switches add-ons off, as a new start does
