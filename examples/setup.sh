@@ -1,6 +1,10 @@
 #!/usr/bin/env bash
 # Makes this checkout ready to run: system packages, a virtual environment in .venv, and a build of Firetwin.
 # Safe to run again: installed packages and finished builds stay, and an unchanged checkout takes about a second.
+#
+#   examples/setup.sh                  what the command line needs
+#   examples/setup.sh --with-wheels    also what cpp/portable/build.sh needs
+#   examples/setup.sh --with-tests     also what the tests need
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -14,21 +18,22 @@ run_packages=(
   # Libraries that Blender loads.
   libegl1 libgl1 libgl1-mesa-dri libxi6 libxrender1 libxkbcommon0 libxxf86vm1 libxfixes3 libsm6 libice6 libgomp1
 )
+wheel_packages=(g++-12 make curl)
 test_packages=(
   geographiclib-tools libopenvdb-tools openimageio-tools proj-bin ffmpeg shellcheck
-  # The portable wheels, and folders with other Debians.
-  g++-12 make curl debootstrap
+  debootstrap # folders with other Debians
 )
-extras="blender"
+extras="blender" test_extras="blender,test,lint,docs"
 
 for argument in "$@"; do
   case $argument in
+    --with-wheels) run_packages+=("${wheel_packages[@]}") ;;
     --with-tests)
-      run_packages+=("${test_packages[@]}")
-      extras="blender,test,lint,docs"
+      run_packages+=("${wheel_packages[@]}" "${test_packages[@]}")
+      extras=$test_extras
       ;;
     *)
-      echo "usage: examples/setup.sh [--with-tests]" >&2
+      echo "usage: examples/setup.sh [--with-wheels | --with-tests]" >&2
       exit 2
       ;;
   esac
@@ -91,9 +96,9 @@ find_python() {
 
 
 # Changes if pip has to install packages. addon/ and data/ are used in place, and ninja checks C++.
-fingerprint() {
+fingerprint() { # extras
   {
-    echo "$PWD $extras"
+    echo "$PWD $1"
     sha256sum pyproject.toml examples/setup.sh
   } | sha256sum
 }
@@ -170,7 +175,10 @@ mkdir -p build
 install_packages "${build_packages[@]}"
 stamp=.venv/firetwin.stamp
 background=() stale=false
-if [[ ! -f $stamp || $(<"$stamp") != "$(fingerprint)" ]]; then
+if [[ -f $stamp && $(<"$stamp") == "$(fingerprint "$test_extras")" ]]; then
+  extras=$test_extras # they stay
+fi
+if [[ ! -f $stamp || $(<"$stamp") != "$(fingerprint "$extras")" ]]; then
   stale=true
   make_venv
   install_python_packages &
@@ -188,5 +196,5 @@ done
 site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
 quietly install cmake --install build/setup --component core --prefix "$site"
 use_in_place "$site"
-fingerprint >"$stamp"
+fingerprint "$extras" >"$stamp"
 say "ready: .venv/bin/firetwin"

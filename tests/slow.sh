@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Runs the tests that tests/run.sh does not run, and lists those that did not fit into the time. Farms come first.
+# Fuzzers and chaos.py run only if a file that they test has changed since yesterday; each night they run in any case.
 # Libraries and Debian folders are cached in $FIRETWIN_CACHE (~/.cache/firetwin), so that more tests fit the next time.
 #
 #   tests/slow.sh                      as much as fits into 25 minutes
 #   tests/slow.sh SECONDS              as much as fits into so many seconds
 #   tests/slow.sh --release            what only a release and each night need: wheels, extension, Blender 5.2, its
-#                                      window, sanitizers, an hour of faults; within 3 hours
+#                                      window, sanitizers, fuzzers, an hour of faults; within 3 hours
 #   tests/slow.sh --release SECONDS    as much of that as fits into so many seconds
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -53,6 +54,16 @@ slow() { # minutes command...
   esac
 }
 
+# A test of files that change rarely, by day: what no commit has changed since yesterday was tested last night.
+daily() { # minutes files command...
+  # shellcheck disable=SC2086 # a list of paths
+  if git rev-parse --quiet --verify HEAD >/dev/null && [[ -z $(git log -1 --since=1.day --format=%h -- $2) ]]; then
+    summary+=("left to the night: ${*:3}; no commit since yesterday changes $2")
+  else
+    slow "$1" "${@:3}"
+  fi
+}
+
 pytest=(.venv/bin/python -m pytest -q -n "$(nproc)" --dist worksteal --max-worker-restart 0)
 if $release; then
   slow 18 tests/system/wheels.sh # with the libraries, unless they are cached
@@ -63,6 +74,10 @@ if $release; then
   fi
   slow 3 tests/system/dataset_oracles.sh
   slow 9 tests/system/versions.sh 5.2
+  slow 2 tests/system/fuzz/run.sh --runs 20000
+  slow 1 .venv/bin/python tests/system/fuzz/tilesets.py --runs 10000
+  slow 2 .venv/bin/python tests/system/fuzz/files.py --seconds 10
+  slow 2 .venv/bin/python tests/system/fuzz/convert.py --each 200
   slow 3 .venv/bin/python tests/system/fuzz/scenes.py --builds 20 --seconds 150
   slow 16 tests/system/window.sh
   slow 20 tests/system/sanitize.sh
@@ -77,12 +92,14 @@ else
   slow 0 "${pytest[@]}" tests/system --ignore tests/system/farm
   slow 0 "${pytest[@]}" tests/render "${done[@]}"
   slow 2 "${pytest[@]}" tests/unit -m hypothesis --hypothesis-profile thorough -o budget_factor=10
-  slow 2 tests/system/fuzz/run.sh --runs 20000
-  slow 1 .venv/bin/python tests/system/fuzz/tilesets.py --runs 10000
-  slow 2 .venv/bin/python tests/system/fuzz/files.py --seconds 10
-  slow 2 .venv/bin/python tests/system/fuzz/convert.py --each 200
-  slow 1 .venv/bin/python tests/system/fuzz/scenes.py --builds 8 --seconds 50
-  slow 8 .venv/bin/python tests/system/chaos/chaos.py --minutes 5
+  fuzz=tests/system/fuzz
+  daily 2 "$fuzz cpp/base cpp/io cpp/run cpp/tiles" $fuzz/run.sh --runs 20000
+  daily 1 "$fuzz/tilesets.py addon/tiles cpp/tiles" .venv/bin/python $fuzz/tilesets.py --runs 10000
+  daily 2 "$fuzz/files.py addon/run addon/stations addon/camera_import" .venv/bin/python $fuzz/files.py --seconds 10
+  daily 2 "$fuzz/convert.py addon/run" .venv/bin/python $fuzz/convert.py --each 200
+  daily 1 "$fuzz/scenes.py addon/shot" .venv/bin/python $fuzz/scenes.py --builds 8 --seconds 50
+  daily 8 "tests/system/chaos addon/leases.py addon/files.py addon/render addon/farm addon/tiles addon/smoke" \
+    .venv/bin/python tests/system/chaos/chaos.py --minutes 5
   title="what tests/run.sh leaves out"
 fi
 printf '%s\n' "== $title" "${summary[@]}"

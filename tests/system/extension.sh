@@ -5,6 +5,8 @@
 #   tests/system/extension.sh --zip           build the wheels of the core and the zip
 #   tests/system/extension.sh --try ZIP       only try this zip
 #
+# It also sets up (examples/setup.sh --with-wheels). The libraries of the core are built once, in 10 minutes, and kept in
+# build/portable or $FIRETWIN_PORTABLE.
 # FIRETWIN_WHEELS names an additional folder of wheels for the zip, such as the core for another Python.
 # For FIRETWIN_BLENDERS and Blender 5.2 see tests/system/wheels.sh.
 set -euo pipefail
@@ -15,6 +17,7 @@ portable=${FIRETWIN_PORTABLE:-build/portable}
 
 make_zip() {
   local wheels=$portable/extension-wheels
+  examples/setup.sh --with-wheels
   cpp/portable/build.sh
   rm -rf build/extension
   mkdir -p build/extension

@@ -1,4 +1,4 @@
-"""Install the extension's zip as a user does, film a frame of the sample run, and remove it: ``install.py ZIP``.
+"""Install the zip of the extension as a user does, film a frame with it, and remove it: ``install.py ZIP``.
 
 Blender's settings, extensions and files are in a separate folder, which is empty before and after.
 """
