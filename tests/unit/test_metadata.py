@@ -24,7 +24,14 @@ def test_one_version():
     manifest = tomllib.loads((ROOT / "addon/blender_manifest.toml").read_text())
     assert manifest["version"] == version
     assert of_cff("version") == version == ZENODO["version"]
-    assert f"\n## {version} - " in (ROOT / "CHANGELOG.md").read_text()
+
+
+def test_the_change_log_is_short_and_has_the_date_of_the_version():
+    text = (ROOT / "CHANGELOG.md").read_text()
+    version, date = re.search(r"^## (\S+) - (\d{4}-\d\d-\d\d)$", text, re.MULTILINE).groups()
+    assert version == of_cff("version")
+    assert date == of_cff("date-released")
+    assert len(text.splitlines()) < 150
 
 
 def test_the_archive_and_the_citation_agree():
