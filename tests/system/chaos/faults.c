@@ -20,16 +20,25 @@ static long number(const char *name) {
   return text ? atol(text) : 0;
 }
 
-/* Sets *function to the function that this library replaces. */
-static void find(void *function, const char *name) {
-  void *found = dlsym(RTLD_NEXT, name);
-  memcpy(function, &found, sizeof found);
+/* The functions that this library replaces. They are looked up once, before main: dlsym waits for the lock of the loader, and a
+ * thread that imports a module can hold this lock while it waits for Python's. */
+static int (*real_clock)(clockid_t, struct timespec *);
+static int (*real_time)(struct timeval *, void *);
+static int (*real_fcntl)(int, int, ...);
+static int (*real_fcntl64)(int, int, ...);
+
+static void look_up(void *function, const char *name) {
+  void *address = dlsym(RTLD_NEXT, name);
+  memcpy(function, &address, sizeof address);
 }
 
-static int real_clock(clockid_t clock, struct timespec *now) {
-  int (*real)(clockid_t, struct timespec *);
-  find(&real, "clock_gettime");
-  return real(clock, now);
+__attribute__((constructor)) static void look_up_all(void) {
+  if (real_clock)
+    return;
+  look_up(&real_time, "gettimeofday");
+  look_up(&real_fcntl, "fcntl");
+  look_up(&real_fcntl64, "fcntl64");
+  look_up(&real_clock, "clock_gettime");
 }
 
 static long jump(void) {
@@ -39,6 +48,7 @@ static long jump(void) {
 }
 
 int clock_gettime(clockid_t clock, struct timespec *now) {
+  look_up_all(); /* a constructor of another library can be earlier */
   int status = real_clock(clock, now);
   if (status == 0 && clock == CLOCK_REALTIME)
     now->tv_sec += jump();
@@ -46,9 +56,8 @@ int clock_gettime(clockid_t clock, struct timespec *now) {
 }
 
 int gettimeofday(struct timeval *restrict now, void *restrict zone) {
-  int (*real)(struct timeval *, void *);
-  find(&real, "gettimeofday");
-  int status = real(now, zone);
+  look_up_all();
+  int status = real_time(now, zone);
   if (status == 0)
     now->tv_sec += jump();
   return status;
@@ -61,7 +70,7 @@ static int is_lock_file(int file) {
   return length > 5 && memcmp(path + length - 5, ".lock", 5) == 0;
 }
 
-static int control(const char *name, int file, int command, void *value) {
+static int control(int (*real)(int, int, ...), int file, int command, void *value) {
   static unsigned requests;
   long one_of = number("CHAOS_LOCKS");
   if (one_of > 0 && (command == F_SETLK || command == F_SETLKW)) {
@@ -72,8 +81,6 @@ static int control(const char *name, int file, int command, void *value) {
       return -1;
     }
   }
-  int (*real)(int, int, ...);
-  find(&real, name);
   return real(file, command, value);
 }
 
@@ -82,7 +89,8 @@ int fcntl(int file, int command, ...) {
   va_start(values, command);
   void *value = va_arg(values, void *);
   va_end(values);
-  return control("fcntl", file, command, value);
+  look_up_all();
+  return control(real_fcntl, file, command, value);
 }
 
 int fcntl64(int file, int command, ...) {
@@ -90,5 +98,6 @@ int fcntl64(int file, int command, ...) {
   va_start(values, command);
   void *value = va_arg(values, void *);
   va_end(values);
-  return control("fcntl64", file, command, value);
+  look_up_all();
+  return control(real_fcntl64, file, command, value);
 }
