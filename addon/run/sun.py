@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime
@@ -101,6 +102,7 @@ def moon(run: Run, time: float) -> Moon:
     return Moon(bearing, height, float(bright * through))
 
 
+@functools.lru_cache(maxsize=1)  # `moon` asks twice
 def moon_angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
     """Compute the moon's bearing, clockwise from north, and elevation, degrees, within 0.1.
 
@@ -131,7 +133,8 @@ def position(run: Run, time: float) -> tuple[float, float]:
 
 def toward_light(run: Run, time: float) -> NDArray[np.float64]:
     """Compute the unit vector towards the sun, or at night the moon, over the run at a model time (s)."""
-    return shadow_direction(*position(run, time), moon(run, time))
+    bearing, height = position(run, time)
+    return shadow_direction(bearing, height, NO_MOON if height > NIGHT else moon(run, time))
 
 
 def middle(run: Run) -> tuple[float, float]:
