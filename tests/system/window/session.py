@@ -438,9 +438,10 @@ def session() -> Iterator[object]:
     yield from install()
     for step in (
         *(panel, quality, build, shown.sections, shown.dialogs, look, parts, scrub, render),
+        *(by_hand, undo),  # undo reaches back to the build, before steps that add cameras
         *(found.manual, found.find, found.pie, customized.shortcuts, customized.german),
         *(customized.preferences, customized.assets, allocating.allocate),
-        *(by_hand, undo, beside, file, shown.drop, tile_preview.tiles, page.page),
+        *(beside, file, shown.drop, tile_preview.tiles, page.page),
         *(customized.cache, headset.headset),
     ):
         if step.__name__ in STEPS:
