@@ -6,11 +6,11 @@ A module defines `finish`, unless its name begins with "_". It runs without Blen
 from __future__ import annotations
 
 import functools
-import importlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ... import plugins
 from ...errors import Error
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def finisher(name: str) -> Finish:
         A Python package that it needs is not installed.
     """
     try:
-        found: Finish = importlib.import_module(f"{__name__}.{name}").finish
+        found: Finish = plugins.module(__name__, name).finish
     except ModuleNotFoundError as error:
         if error.name is None or error.name.startswith(__name__):
             raise

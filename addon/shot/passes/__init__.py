@@ -9,11 +9,11 @@ value are NaN: the imager passes draw them grey, `sensor.colour` as the coldest.
 from __future__ import annotations
 
 import functools
-import importlib
-import pkgutil
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
+
+from ... import plugins
 
 if TYPE_CHECKING:
     from ..sections.camera import CameraSettings
@@ -171,9 +171,8 @@ class ComparisonPass(DerivedPass):
 @functools.cache
 def known() -> dict[str, Pass]:
     """Return all passes by name, in order."""
-    names = [module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_"]
-    passes = [importlib.import_module(f"{__name__}.{name}").PASS for name in names]
-    return {entry.name: entry for entry in sorted(passes, key=lambda entry: entry.order)}
+    found = plugins.values(__name__, "PASS").values()
+    return {entry.name: entry for entry in sorted(found, key=lambda entry: entry.order)}
 
 
 def helps() -> dict[str, str]:

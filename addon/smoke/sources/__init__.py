@@ -6,10 +6,9 @@ A module defines `SOURCE`, a subclass of `Source` with the module's name.
 from __future__ import annotations
 
 import functools
-import importlib
-import pkgutil
 from collections.abc import Collection
 
+from ... import plugins
 from ...shot.shot import Shot
 from ._source import Source, VolumeLayer, allows_ray_march
 
@@ -19,8 +18,7 @@ __all__ = ["Source", "VolumeLayer", "choices", "choose", "is_integrated", "known
 @functools.cache
 def known() -> dict[str, type[Source]]:
     """Load all sources, by name."""
-    names = [module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_"]
-    return {name: importlib.import_module(f"{__name__}.{name}").SOURCE for name in sorted(names)}
+    return plugins.values(__name__, "SOURCE")
 
 
 def choices() -> dict[str, str]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
-from collections.abc import Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from urllib.parse import urlsplit
+
+from ... import plugins
 
 
 @dataclass(frozen=True)
@@ -73,10 +73,9 @@ class Policy:
 OPEN = Policy("a server that you name")
 
 
-def known() -> Iterator[Policy]:
+def known() -> Iterable[Policy]:
     """List the policies of all services."""
-    for module in sorted(pkgutil.iter_modules(__path__), key=lambda each: each.name):
-        yield importlib.import_module(f".{module.name}", __name__).POLICY
+    return plugins.values(__name__, "POLICY").values()
 
 
 def for_host(host: str) -> Policy:
@@ -96,7 +95,7 @@ def for_source(place: str) -> Policy:
     kind, _, number = place.partition(":")
     if kind == "ion":
         own = (each for each in known() if number.isdecimal() and int(number) in each.assets)
-        return next(own, importlib.import_module(".ion", __name__).POLICY)
+        return next(own, plugins.module(__name__, "ion").POLICY)
     try:
         return for_host(urlsplit(place).hostname or "") if "://" in place else OPEN
     except ValueError:  # not a URL: opening it reports the error

@@ -7,16 +7,15 @@ Blender.
 from __future__ import annotations
 
 import functools
-import importlib
 from dataclasses import dataclass, replace
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from firetwin_core.run import Run
 
+from .... import plugins
 from ....run import blocks, fuel_category, times
 from ....shot.fire import emissions
-from ....shot.sections import biome_names
 from ....shot.shot import Shot, cached_on_shot
 from .. import phenology
 from ..phenology import LeafState
@@ -69,7 +68,7 @@ class Here:
 @functools.cache
 def known() -> dict[str, Biome]:
     """All biomes by name."""
-    return {name: importlib.import_module(f".{name}", __name__).BIOME for name in biome_names.names()}
+    return plugins.values(__name__, "BIOME")
 
 
 @cached_on_shot

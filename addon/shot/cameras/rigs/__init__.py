@@ -8,9 +8,9 @@ description.
 from __future__ import annotations
 
 import functools
-import importlib
-import pkgutil
 from typing import TYPE_CHECKING, Any, ClassVar
+
+from .... import plugins
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -84,5 +84,4 @@ class Rig:
 @functools.cache
 def kinds() -> dict[str, type[Rig]]:
     """All kinds of camera by name."""
-    names = sorted(module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_")
-    return {name: importlib.import_module(f"{__name__}.{name}").RIG for name in names}
+    return plugins.values(__name__, "RIG")
