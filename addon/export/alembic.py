@@ -18,6 +18,8 @@ from . import tracks
 from .request import ExportRequest
 from .tracks import Track
 
+FORMAT = {"title": "Alembic", "help": "Alembic: perspective cameras"}
+ORDER = 30
 NAME = "cameras.abc"
 
 

@@ -26,6 +26,8 @@ from .request import ExportRequest
 from .texts import html, iso
 from .tracks import Track
 
+FORMAT = {"title": "Cesium (CZML)", "help": "Cesium: clock, fronts, cameras, labels"}
+ORDER = 60
 NAME = "scene.czml"
 _FILL = 60  # opacity of burned ground, of 255
 _DIGITS = 9  # of degrees, 0.1 mm

@@ -1,12 +1,14 @@
-"""Formats of `firetwin export`: a module of this package each, with a function `write`."""
+"""Formats of `firetwin export`: modules of this package with `write`, and the fields of their `Format`."""
 
 from __future__ import annotations
 
-import importlib
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from .. import plugins
 
 if TYPE_CHECKING:
     from .request import ExportRequest
@@ -31,22 +33,13 @@ class Format:
     has_smoke: bool = False
 
 
-_FORMATS = {
-    "usd": Format("USD", "USD stage: terrain, forest, fire, smoke, cameras", has_smoke=True),
-    "gltf": Format("glTF", "glTF scene with instanced trees, and a viewer page"),
-    "alembic": Format("Alembic", "Alembic: perspective cameras"),
-    "gis": Format("GIS and QGIS", "GeoPackage of fronts, cameras, stations; GeoTIFFs; QGIS project"),
-    "kmz": Format("Google Earth (KMZ)", "Google Earth: fronts by time, camera tours, overlays"),
-    "czml": Format("Cesium (CZML)", "Cesium: clock, fronts, cameras, labels"),
-}
-
-
+@functools.cache
 def known() -> dict[str, Format]:
-    """List the formats whose modules this installation has."""
-    folder = Path(__file__).parent
-    return {name: each for name, each in _FORMATS.items() if (folder / f"{name}.py").is_file()}
+    """List the formats, in order, without their imports."""
+    found = plugins.declared(Path(__file__).parent, "FORMAT")
+    return {name: Format(**each) for name, each in found.items()}
 
 
 def writer(name: str) -> Callable[[ExportRequest], list[Path]]:
     """Return the function that writes a format into the folder of a request, and lists the main files."""
-    return importlib.import_module(f".{name}", __package__).write
+    return plugins.module(__package__, name).write

@@ -12,6 +12,8 @@ from .gis_project import ProjectLayer
 from .gis_rasters import FOLDER, Raster
 from .request import ExportRequest
 
+FORMAT = {"title": "GIS and QGIS", "help": "GeoPackage of fronts, cameras, stations; GeoTIFFs; QGIS project"}
+ORDER = 40
 GEOPACKAGE, PROJECT, STYLES = "firetwin.gpkg", "firetwin.qgs", "styles"
 _GEOMETRIES = {"POINT": "Point", "LINESTRING": "Line", "MULTILINESTRING": "Line", "MULTIPOLYGON": "Polygon"}
 _HIDDEN = ("camera_frames", "burned", "fuel", "intensity", "smoke_column")

@@ -27,6 +27,8 @@ from .viewer_page import PageText
 if TYPE_CHECKING:
     from .scene_job import SceneExport
 
+FORMAT = {"title": "glTF", "help": "glTF scene with instanced trees, and a viewer page"}
+ORDER = 20
 NAME, PAGE = "scene.glb", "index.html"
 _SYNTHETIC = "This scene is synthetic, not the output of a fire model."
 

@@ -24,6 +24,8 @@ from .request import ExportRequest
 from .texts import html, iso, xml
 from .tracks import Track
 
+FORMAT = {"title": "Google Earth (KMZ)", "help": "Google Earth: fronts by time, camera tours, overlays"}
+ORDER = 50
 NAME = "scene.kmz"
 _START = 3.0  # s, flight to the first frame of a tour
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)  # of all members, so that equal content is an equal file

@@ -1,17 +1,16 @@
 """Scene job: builds a shot's scene in a worker process with Blender, and writes it in a format.
 
 A format that needs the scene has a function ``write_content(content, export)``, which runs in the worker.
-It can have ``check_blender()``, which raises an Error if this Blender cannot write it, and
-``HAS_VOLUMES = True`` if it writes the smoke.
+It can have ``check_blender()``, which raises an Error if this Blender cannot write it.
 """
 
 from __future__ import annotations
 
-import importlib
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .. import plugins
 from ..jobs import worker
 from ..jobs.tiles import imagery, selection
 from ..progress import MessageCallback, Progress
@@ -19,6 +18,7 @@ from ..shot import georeference
 from ..shot.georeference import Georeference
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
+from . import formats
 
 if TYPE_CHECKING:
     from .request import ExportRequest
@@ -74,13 +74,13 @@ def in_blender(
     from ..jobs import worker_scene
     from . import read_scene
 
-    module = importlib.import_module(f".{writer}", __package__)
+    module = plugins.module(__package__, writer)
     if hasattr(module, "check_blender"):
         module.check_blender()
     shot = ShotSource(**choice).shot()
     for text in shot.warnings():
         tell(text)
-    wanted = smoke and shot.settings.smoke.enabled and getattr(module, "HAS_VOLUMES", False)
+    wanted = smoke and shot.settings.smoke.enabled and formats.known()[writer].has_smoke
     volumes = _write_volumes(shot, frames, Path(folder), progress) if wanted else []
     place = georeference.Georeference(shot.local_frame, *geoid)
     stage = worker_scene.build_scene(shot, progress, tell)

@@ -18,11 +18,11 @@ from .request import ExportRequest
 from .scene_content import SceneContent
 from .scene_job import SceneExport
 
+FORMAT = {"title": "USD", "help": "USD stage: terrain, forest, fire, smoke, cameras", "has_smoke": True}
+ORDER = 10
 NAME = "scene.usda"
 PICTURES = 5
 """Number of pictures of the ground, at most."""
-HAS_VOLUMES = True
-"""True: the smoke is part of this format."""
 
 
 def write(request: ExportRequest) -> list[Path]:

@@ -27,7 +27,6 @@ from firetwin_core import volume
 
 class Soot(Source):
     name = "soot"
-    help = "soot of a tiny model"
     {says}
 
     def voxels(self):
@@ -80,23 +79,20 @@ def test_a_source_says_what_it_is(name):
     assert module.SOURCE is each
     assert module.__doc__
     assert each.__doc__
-    assert each.help.strip()
-    assert not each.help.endswith(".")
-    assert each.preview_of in ("", *sources.choices())
+    assert each.preview_of in ("", *SMOKE_METHODS)
     assert f"smoke/sources/{name}.py" in each.code_files()
     assert all((ADDON / place).exists() for place in each.code_files())
 
 
 def test_what_a_scene_file_can_choose_is_what_the_folder_holds():
-    choices = sources.choices()
-    assert choices == {name: method.help for name, method in SMOKE_METHODS.items()}
-    for name, method in SMOKE_METHODS.items():
-        assert KNOWN[name].history == method.history
+    assert list(SMOKE_METHODS) == [name for name, source in KNOWN.items() if not source.fields]
+    for method in SMOKE_METHODS.values():
+        assert method.help.strip(" .") == method.help
         assert method.history in vars(SmokeSettings())
 
 
 def test_the_fields_of_a_run_go_before_the_method():
-    for method in sources.choices():
+    for method in SMOKE_METHODS:
         assert sources.choose(method, {"heat_flux"}).name == method
         assert sources.choose(method, {"heat_flux", "smoke_3d"}).name == "model"
 
@@ -132,12 +128,3 @@ def test_a_source_that_a_run_brings_is_added_by_one_file(shot, soot):
     plan.check_marched(made, [Picture("drone", 1, "rgb")])
     with pytest.raises(Error, match="leave comp out of the passes"):
         plan.check_marched(made, [Picture("drone", 1, "comp")])
-
-
-def test_a_source_that_is_chosen_is_added_by_one_file_and_its_line_in_the_settings(shot, soot, monkeypatch):
-    soot('history = "max_age"')
-    assert set(sources.choices()) - set(SMOKE_METHODS) == {"soot"}
-    monkeypatch.setitem(SMOKE_METHODS, "soot", SMOKE_METHODS["puffs"])
-    made = shot(method="soot")
-    assert bake.folder(made) != bake.folder(shot(method="puffs"))
-    assert (bake.bake(made) / "smoke_000001.vdb").exists()

@@ -1,4 +1,4 @@
-"""Formats of data sets: a module of this package each, with `write(set_folder, samples, out)`.
+"""Formats of data sets: modules with `write(set_folder, samples, out)`, and the fields of their `Format`.
 
 `set_folder` has the files of the samples, and `out` is an empty folder, whose content moves to `set_folder`
 after all of it is written (see `staging`). So paths in its files are relative to `set_folder`.
@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ... import plugins
 from ...errors import UsageError
 from ...staging import staging
 
@@ -37,17 +38,7 @@ class Format:
     package: str = ""
 
 
-FORMATS = {
-    "coco": Format("annotations/: COCO instances and panoptic segments of each split"),
-    "yolo": Format("labels/, data.yaml and lists of pictures: YOLO boxes"),
-    "voc": Format("voc/: Pascal VOC boxes and lists of pictures"),
-    "hf": Format("imagefolder/: Hugging Face ImageFolder, metadata.jsonl of each split"),
-    "parquet": Format("parquet/: Hugging Face rows with pictures and boxes", "pyarrow"),
-    "webdataset": Format("webdataset/: tar files of about 1 GB, with all files of each sample"),
-    "nerfstudio": Format("nerfstudio/: transforms.json of each run"),
-    "colmap": Format("colmap/: COLMAP text model of each run, without points"),
-    "tum": Format("tum/: TUM trajectory of each run, with the number of the sample as its time"),
-}
+FORMATS = {name: Format(**each) for name, each in plugins.declared(Path(__file__).parent, "FORMAT").items()}
 DEFAULT = ("coco", "yolo")
 
 
@@ -72,7 +63,7 @@ def names(text: str) -> tuple[str, ...]:
 
 def writer(name: str) -> Writer:
     """Return the function that writes a format."""
-    return importlib.import_module(f".{name}", __package__).write
+    return plugins.module(__name__, name).write
 
 
 def write(set_folder: Path, samples: Sequence[Truth], formats: Iterable[str]) -> None:

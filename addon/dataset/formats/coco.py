@@ -19,6 +19,8 @@ from .. import files, rle
 from ..truth import CATEGORIES, FIRE, SMOKE, Annotation, Truth, stem
 from . import common
 
+FORMAT = {"help": "annotations/: COCO instances and panoptic segments of each split"}
+ORDER = 10
 FOLDER = "annotations"
 _SEGMENTS = 1000  # ids of segments of a category
 _STANDARD = {"id", "category", "box", "pixels"}

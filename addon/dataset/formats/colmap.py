@@ -14,6 +14,8 @@ from .. import axes
 from ..truth import Truth
 from . import common
 
+FORMAT = {"help": "colmap/: COLMAP text model of each run, without points"}
+ORDER = 80
 FOLDER = "colmap"
 
 

@@ -15,6 +15,8 @@ from typing import Any
 from ..truth import CATEGORIES, Truth
 from . import common
 
+FORMAT = {"help": "imagefolder/: Hugging Face ImageFolder, metadata.jsonl of each split"}
+ORDER = 40
 FOLDER = "imagefolder"
 _NAMES = {each.id: each.name for each in CATEGORIES}
 

@@ -13,6 +13,8 @@ from typing import Any
 from ..truth import Truth
 from . import common
 
+FORMAT = {"help": "nerfstudio/: transforms.json of each run"}
+ORDER = 70
 FOLDER = "nerfstudio"
 
 

@@ -11,6 +11,8 @@ from typing import Any
 from ..truth import Truth
 from . import common, hf
 
+FORMAT = {"help": "parquet/: Hugging Face rows with pictures and boxes", "package": "pyarrow"}
+ORDER = 50
 FOLDER = "parquet"
 _FACTS = {"index": "int64", "negative": "bool", "seconds_since_ignition": "float64"}  # others are strings
 _LISTS = {"category": "int64", "distance_m": "float64", "name": "string", "visible_fraction": "float64"}

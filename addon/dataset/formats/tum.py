@@ -16,6 +16,8 @@ from .. import axes
 from ..truth import Truth
 from . import common
 
+FORMAT = {"help": "tum/: TUM trajectory of each run, with the number of the sample as its time"}
+ORDER = 90
 FOLDER = "tum"
 
 

@@ -13,6 +13,8 @@ from xml.etree import ElementTree
 from ..truth import CATEGORIES, Annotation, Box, Truth, stem
 from . import common
 
+FORMAT = {"help": "voc/: Pascal VOC boxes and lists of pictures"}
+ORDER = 30
 FOLDER = "voc"
 _NAMES = {each.id: each.name for each in CATEGORIES}
 

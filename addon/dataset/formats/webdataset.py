@@ -14,6 +14,8 @@ from .. import truth as truths
 from ..truth import Truth
 from . import common
 
+FORMAT = {"help": "webdataset/: tar files of about 1 GB, with all files of each sample"}
+ORDER = 60
 FOLDER = "webdataset"
 
 

@@ -12,6 +12,8 @@ from pathlib import Path
 from ..truth import Annotation, Box, CameraPose, Truth, stem
 from . import common
 
+FORMAT = {"help": "labels/, data.yaml and lists of pictures: YOLO boxes"}
+ORDER = 20
 FOLDER = "labels"
 
 

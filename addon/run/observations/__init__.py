@@ -1,12 +1,11 @@
 """Observations of a fire: dated perimeters, infrared flights' heat and satellite detections.
 
-Each format is a module here, selected by file extension. Readers return `Feature`; `dates` parses dates. Only
+Each format is a module here, selected by its `SUFFIXES`. Readers return `Feature`; `dates` parses dates. Only
 `shapefile` needs more than Python and NumPy.
 """
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -16,7 +15,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from ... import files
+from ... import files, plugins
 from ...errors import input_error, reading
 from . import dates, infrared_detections
 from .feature import Feature, Polygon
@@ -37,15 +36,8 @@ __all__ = [
 FOLDER = "observations"
 """Subfolder of a run's folder whose files are read by default."""
 
-_READERS = {
-    ".geojson": "geojson",
-    ".json": "geojson",
-    ".kml": "kml",
-    ".kmz": "kml",
-    ".gpkg": "geopackage",
-    ".shp": "shapefile",
-    ".csv": "firms",
-}
+_SUFFIXES = plugins.declared(Path(__file__).parent, "SUFFIXES")
+_READERS = {suffix: name for name, suffixes in _SUFFIXES.items() for suffix in suffixes}
 
 
 @dataclass(frozen=True)
@@ -194,7 +186,7 @@ def _reader(path: Path) -> ModuleType:
     if name is None:
         known = ", ".join(sorted(_READERS))
         raise input_error(path, f"cannot be read; files of observations and outlines end in {known}")
-    return importlib.import_module(f".{name}", __name__)
+    return plugins.module(__name__, name)
 
 
 def _sorted(

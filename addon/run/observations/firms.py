@@ -12,6 +12,7 @@ from ...errors import input_error
 from . import Detections
 from .feature import finite
 
+SUFFIXES = (".csv",)
 _NEEDED = ("latitude", "longitude", "acq_date", "acq_time")
 _PIXEL = {"VIIRS": 375.0, "MODIS": 1000.0}  # m, pixel size at nadir, for files without scan and track
 _LOW = 30.0  # of 100, below which MODIS's confidence class is low

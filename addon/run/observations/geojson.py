@@ -10,6 +10,8 @@ from typing import Any
 from ...errors import input_error
 from .feature import Feature, Polygon, degrees, ring
 
+SUFFIXES = (".geojson", ".json")
+
 
 def read(path: Path, system: str = "") -> list[Feature]:
     """Read the features of a FeatureCollection, a Feature or a bare geometry.

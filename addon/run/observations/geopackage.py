@@ -16,6 +16,7 @@ from ...foreign_database import ForeignDatabase
 from .feature import Feature, Polygon, Ring, degrees, ring
 from .projection import UNDEFINED, to_degrees
 
+SUFFIXES = (".gpkg",)
 Part = tuple[str, Polygon | Ring]
 _ENVELOPES = (0, 32, 48, 48, 64)  # bytes of the envelope by flag bits
 

@@ -12,6 +12,7 @@ from ... import files, limits
 from ...errors import input_error
 from .feature import Feature, Polygon, Ring, degrees, ring
 
+SUFFIXES = (".kml", ".kmz")
 _LARGEST = limits.TEXT_BYTES
 
 

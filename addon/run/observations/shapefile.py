@@ -12,6 +12,8 @@ from ...errors import input_error
 from .feature import Feature, Polygon, degrees, ring
 from .projection import to_degrees
 
+SUFFIXES = (".shp",)
+
 
 def read(path: Path) -> list[Feature]:
     """Read all shapes.

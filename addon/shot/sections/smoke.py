@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import NamedTuple
 
+from ... import plugins
 from ..schema import key
 
 
@@ -24,11 +26,9 @@ class SmokeMethod(NamedTuple):
     solved: bool
 
 
-SMOKE_METHODS = {
-    "flow": SmokeMethod("flow solved once per shot", "spin_up", solved=True),
-    "puffs": SmokeMethod("quick preview", "max_age", solved=False),
-}
-"""The sources of smoke that a scene file can choose; the sources themselves are in ``smoke/sources``."""
+_SOURCES = Path(__file__).parents[2] / "smoke" / "sources"
+SMOKE_METHODS = {name: SmokeMethod(**each) for name, each in plugins.declared(_SOURCES, "METHOD").items()}
+"""The sources of smoke that a scene file can choose, from their modules, which are not imported here."""
 
 
 @dataclass(frozen=True)

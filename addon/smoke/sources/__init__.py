@@ -12,18 +12,13 @@ from ... import plugins
 from ...shot.shot import Shot
 from ._source import Source, VolumeLayer, allows_ray_march
 
-__all__ = ["Source", "VolumeLayer", "choices", "choose", "is_integrated", "known", "preview", "select"]
+__all__ = ["Source", "VolumeLayer", "choose", "is_integrated", "known", "preview", "select"]
 
 
 @functools.cache
 def known() -> dict[str, type[Source]]:
     """Load all sources, by name."""
     return plugins.values(__name__, "SOURCE")
-
-
-def choices() -> dict[str, str]:
-    """Return the help of each source that `smoke.method` can select, by name."""
-    return {name: source.help for name, source in known().items() if not source.fields}
 
 
 def preview() -> str:

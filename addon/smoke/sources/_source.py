@@ -63,13 +63,10 @@ class Source(ABC):
     ----------
     name
         Name of its module, and its value of `smoke.method`.
-    help
-        Help in one line.
     fields
         Run fields that it draws. Every run that has them uses this source, whatever `smoke.method` is. A
-        source without such fields is selected by `smoke.method`.
-    history
-        Key of [smoke] with the required history of smoke before the first frame, s; empty: none.
+        source without such fields is selected by `smoke.method`, and its module has `METHOD`, the fields of a
+        `SmokeMethod`.
     preview_of
         Name of the source that it previews, if any.
     illuminated
@@ -82,9 +79,7 @@ class Source(ABC):
     """
 
     name: ClassVar[str]
-    help: ClassVar[str]
     fields: ClassVar[tuple[str, ...]] = ()
-    history: ClassVar[str] = ""
     preview_of: ClassVar[str] = ""
     illuminated: ClassVar[bool] = False
     unused_settings: ClassVar[tuple[str, ...]] = ()

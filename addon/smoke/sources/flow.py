@@ -23,6 +23,7 @@ from ..domains import Domain
 from ..flow import Flow
 from ._source import Lights, Source, VolumeLayer, allows_ray_march
 
+METHOD = {"help": "flow solved once per shot", "history": "spin_up", "solved": True}
 Made = TypeVar("Made")
 _EMPTY = 100.0  # m, voxel of the volume without fire
 _COARSER = 2.0  # voxel size of sub-frames over the voxel size of frames
@@ -32,8 +33,6 @@ class FlowSource(Source):
     """Smoke of a solved flow, painted with subgrid detail and with the light that reaches it."""
 
     name = "flow"
-    help = "flow solved once per shot"
-    history = "spin_up"
     illuminated = True
 
     def __init__(self, shot: Shot) -> None:

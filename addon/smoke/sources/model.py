@@ -15,7 +15,6 @@ class ModelSource(SingleVolume):
     """Smoke of the model, resampled from terrain-following levels."""
 
     name = "model"
-    help = "the model's own smoke"
     fields = ("smoke_3d",)
     made_from = "of the model, smoke_3d"
 

@@ -13,6 +13,7 @@ from ...shot.fire.fire import Cells
 from .. import stability
 from ._single import SingleVolume
 
+METHOD = {"help": "quick preview", "history": "max_age", "solved": False}
 _BLOCK, _INTERVAL = 400.0, 60.0  # m and s within which burning fuel forms one puff, for a fire of 15 km
 
 
@@ -20,8 +21,6 @@ class PuffSource(SingleVolume):
     """Puffs from burned fuel, heat and wind."""
 
     name = "puffs"
-    help = "quick preview"
-    history = "max_age"
     preview_of = "flow"
     made_from = "puffs from burned fuel, heat and wind"
 

@@ -1,23 +1,21 @@
 """Importers of stations and resources: each module reads one format, recognised by file content.
 
 A module has ``NAME``, the name of the format, ``sniff(path, head) -> bool``, which recognises the format by
-the first bytes of a file, and ``read(path, options) -> Batch``. `MODULES` lists the modules in the order of
-the attempts.
+the first bytes of a file, and ``read(path, options) -> Batch``. The modules are tried in the
+order of `ORDER`.
 """
 
 from __future__ import annotations
 
-import importlib
 from pathlib import Path
 from types import ModuleType
 
-from ... import files
+from ... import files, plugins
 from ...errors import InputError, input_error, reading
 from ...run.observations.feature import SAVE_IN_DEGREES
 from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch
 
-MODULES = ("firetwin", "usgs", "hifld", "osm", "resources_csv", "point_layer", "stations_csv")
 _HEAD = 65536  # bytes passed to `sniff`
 
 
@@ -35,8 +33,7 @@ def find_importer(path: Path) -> ModuleType:
         raise input_error(path, "is not a file; name a CSV, GeoJSON, Overpass JSON or GeoPackage file")
     with path.open("rb") as file:
         head = file.read(_HEAD)
-    for name in MODULES:
-        module = importlib.import_module(f".{name}", __name__)
+    for module in plugins.modules(__name__, "read").values():
         if module.sniff(path, head):
             return module
     raise input_error(path, _unknown_format())

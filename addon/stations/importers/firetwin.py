@@ -11,6 +11,7 @@ from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch
 
 NAME = "station file"
+ORDER = 10
 
 
 def sniff(path: Path, head: bytes) -> bool:

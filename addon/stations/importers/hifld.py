@@ -18,6 +18,7 @@ from ..import_rows import Batch, Draft
 from . import positions, tables
 
 NAME = "HIFLD fire stations"
+ORDER = 30
 LICENCE = "public domain (HIFLD: free of licence)"
 URL = "https://hifld-geoplatform.hub.arcgis.com"
 

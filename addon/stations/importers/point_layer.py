@@ -16,6 +16,7 @@ from ..import_rows import Batch
 from . import column_names, days, drafts
 
 NAME = "point layer"
+ORDER = 60
 
 _SQLITE = b"SQLite format 3\0"
 

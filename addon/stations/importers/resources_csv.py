@@ -22,6 +22,7 @@ from ..records import MODES, ORIGINS, STAFFING, STATUSES, Resource
 from . import column_names, tables
 
 NAME = "CSV of resources"
+ORDER = 50
 
 _NAMES = {
     "station": {"station", "station_id", "base"},

@@ -12,6 +12,7 @@ from ..import_rows import Batch
 from . import column_names, drafts, positions, tables
 
 NAME = "CSV of stations"
+ORDER = 70
 
 
 def sniff(path: Path, head: bytes) -> bool:

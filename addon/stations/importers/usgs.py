@@ -19,6 +19,7 @@ from ..import_rows import Batch, Draft
 from . import days
 
 NAME = "USGS National Structures Dataset"
+ORDER = 20
 LICENCE = "public domain (US Geological Survey)"
 URL = "https://www.usgs.gov/national-structures-dataset"
 
