@@ -215,13 +215,12 @@ def _hangs(kind, used):
 
 def _main(kinds, folder, count, seed):
     """Try the kinds, each in its own folder, after importing all readers once for all forks."""
-    from firetwin.run.readers import MODELS
+    from firetwin.run import readers
 
     warnings.simplefilter("ignore")
     for name in ("netCDF4", "rasterio", "pyproj", "firetwin.run.models.write", "firetwin.run.info"):
         importlib.import_module(name)
-    for name in MODELS:
-        importlib.import_module(f"firetwin.run.readers.{name}")
+    readers.models()
     for kind in kinds:
         (folder / kind).mkdir()
         _try_kind(kind, folder / kind, count, seed)

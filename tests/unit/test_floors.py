@@ -18,6 +18,7 @@ NEVER_BPY = (
         "firetwin.leases",
         "firetwin.escaped",
         "firetwin.memory",
+        "firetwin.plugins",
         "firetwin.progress",
     ),
     *("firetwin.cli", "firetwin.commands", "firetwin.data"),

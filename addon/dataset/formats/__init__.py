@@ -39,7 +39,6 @@ class Format:
 
 
 FORMATS = {name: Format(**each) for name, each in plugins.declared(Path(__file__).parent, "FORMAT").items()}
-DEFAULT = ("coco", "yolo")
 
 
 def names(text: str) -> tuple[str, ...]:

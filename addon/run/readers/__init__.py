@@ -2,12 +2,18 @@
 
 A module has ``NAME``, the format's name for people, and ``sniff(path) -> bool``, whether a file or folder has
 the format. Firetwin's own format has ``open(path) -> Run``. Those of fire models have ``read(paths, options)
--> Model``. They run in a separate process (jobs/convert.py), as damaged files can crash it.
+-> Model``, and are tried in the order of ``ORDER``. They run in a separate process (jobs/convert.py), as
+damaged files can crash it. A module can also have
+
+- ``resembles(path) -> bool``, which checks first bytes or suffix, also of folders; without it, ``sniff``
+- ``MODELS``, the models in the list of known formats; without it, ``NAME``
+- ``RASTER``, how a raster of arrival times is named, if the name identifies it
+- ``why(paths) -> str``, why no reader recognises files that it resembles; empty for other files
 """
 
 from __future__ import annotations
 
-import importlib
+import functools
 import zipfile
 from pathlib import Path
 from types import ModuleType
@@ -15,16 +21,19 @@ from types import ModuleType
 from firetwin_core import run
 from firetwin_core.run import Run
 
-from ... import limits
+from ... import limits, plugins
 from ...errors import Error, input_error, reading
 from .. import times
 from ..growing import watched
 from . import folder
 
-MODELS = ("wrf_sfire", "cfbm", "forefire", "elmfire", "farsite", "pyretechnics", "masks", "netcdf_cf")
-"""Readers of fire models, in the order in which they are tried."""
-
 _MANY = 200_000  # files of a folder
+
+
+@functools.cache
+def models() -> tuple[ModuleType, ...]:
+    """Return the readers of fire models, in the order in which they are tried."""
+    return tuple(plugins.modules(__name__, "read").values())
 
 
 def open(path: str | Path) -> Run:
@@ -67,19 +76,15 @@ def _check_years(found: Run) -> None:
 
 def foreign(path: Path) -> bool:
     """Check by its first bytes whether a path looks like output of a fire model; nothing is parsed."""
-    if not path.is_dir():
-        return _one(path)
-    from ..models import zarr_store
-
-    if zarr_store.is_store(path):
+    if _resembles_one(path):
         return True
-    return not folder.sniff(path) and any(_one(each) for each in path.iterdir() if each.is_file())
+    inside = path.iterdir() if path.is_dir() and not folder.sniff(path) else ()
+    return any(_resembles_one(each) for each in inside if each.is_file())
 
 
-def _one(path: Path) -> bool:
-    from ..models import netcdf, raster
-
-    return netcdf.is_netcdf(path) or raster.is_raster(path) or path.suffix.lower() in (".lcp", ".npz")
+def _resembles_one(path: Path) -> bool:
+    """Check whether a reader is for such files; the generic netCDF reader knows what others would open."""
+    return any(getattr(each, "resembles", each.sniff)(path) for each in reversed(models()))
 
 
 def gathered(paths: list[Path]) -> list[Path]:
@@ -107,10 +112,8 @@ def gathered(paths: list[Path]) -> list[Path]:
 
 
 def _is_input(path: Path) -> bool:
-    """Check whether an entry of a folder is a file or a zarr store."""
-    from ..models import zarr_store
-
-    return path.is_file() or zarr_store.is_store(path)
+    """Check whether an entry of a folder is a file, or a folder that a format takes for one."""
+    return path.is_file() or _resembles_one(path)
 
 
 def reader(paths: list[Path]) -> ModuleType:
@@ -123,7 +126,7 @@ def reader(paths: list[Path]) -> ModuleType:
     """
     from ..models import one_run, probability_maps
 
-    modules = [importlib.import_module(f".{name}", __name__) for name in MODELS]
+    modules = models()
     broken: list[Error] = []
     by_name: dict[str, list[Path]] = {}
     for path in paths:
@@ -149,25 +152,18 @@ def _why(paths: list[Path]) -> str:
     """Give the most likely reason why no reader recognises the files."""
     from ..models import raster
 
-    first = paths[0]
+    first, modules = paths[0], models()
     if first.stat().st_size == 0:
         return "is empty; the copy or the model's run was most likely cut short"
     kind = first.suffix.lower()
-    if (kind in (".nc", ".tif", ".tiff") and not _one(first)) or (
+    if (kind in (".nc", ".tif", ".tiff") and not _resembles_one(first)) or (
         kind == ".npz" and not zipfile.is_zipfile(first)
     ):
         return f"does not begin as a {first.suffix} file does; it is damaged or something else"
-    if any(path.suffix.lower() == ".lcp" for path in paths):
-        return "a landscape without a fire: give its arrival times too"
-    if kind == ".npz":
-        return "has no array time_of_arrival, by which pyretechnics' output is known"
+    if said := next(filter(None, (each.why(paths) for each in modules if hasattr(each, "why"))), ""):
+        return said
     if raster.is_raster(first):
-        return (
-            "rasters are identified by name: name arrival times time_of_arrival_0000001_0003600.tif as "
-            "ELMFIRE does (s), FIRE_Arrival Time.asc as FlamMap does (min), or burned_mask.tif, with a band "
-            "for each time"
-        )
-    return (
-        "is output of no known fire model: WRF-SFIRE, CFBM, ForeFire, ELMFIRE, FARSITE, FlamMap, "
-        "pyretechnics, or netCDF or zarr with latitude and longitude"
-    )
+        named = ", ".join(each.RASTER for each in modules if hasattr(each, "RASTER"))
+        return f"rasters are identified by name: name arrival times {named}"
+    known = ", ".join(filter(None, (getattr(each, "MODELS", each.NAME) for each in modules)))
+    return f"is output of no known fire model: {known}"

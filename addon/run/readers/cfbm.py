@@ -19,7 +19,8 @@ from ..models import arrival, companion_rasters, fuels, netcdf
 from ..models.grid import Grid
 from ..models.model import Model, Options, read_until
 
-NAME = "output of the Community Fire Behavior Model"
+NAME, ORDER = "output of the Community Fire Behavior Model", 20
+MODELS = "CFBM"
 
 _TIME = re.compile(r"(\d{4})-(\d\d)-(\d\d)[_T ](\d\d)\D?(\d\d)\D?(\d\d)")
 

@@ -14,7 +14,9 @@ from ...errors import input_error
 from ..models import companion_rasters, from_arrival_time, raster
 from ..models.model import Model, Options
 
-NAME = "ELMFIRE output"
+NAME, ORDER = "ELMFIRE output", 40
+MODELS = "ELMFIRE"
+RASTER = "time_of_arrival_0000001_0003600.tif as ELMFIRE does (s)"
 
 _ARRIVAL = re.compile(r"time_of_arrival_(\d{7})_(\d+)$")
 _FOOT_A_MINUTE = 0.3048 / 60.0

@@ -13,7 +13,9 @@ from ...errors import input_error
 from ..models import companion_rasters, from_arrival_time, probability_maps, raster
 from ..models.model import Model, Options
 
-NAME = "FARSITE or FlamMap output"
+NAME, ORDER = "FARSITE or FlamMap output", 50
+MODELS = "FARSITE, FlamMap"
+RASTER = "FIRE_Arrival Time.asc as FlamMap does (min)"
 
 _UNITS = {"intensity": 1e3, "speed": 1 / 60.0, "per_area": 1e3}  # kW/m, m/min, kJ/m2
 
@@ -23,6 +25,17 @@ def sniff(path: Path) -> bool:
     return (
         raster.is_raster(path) and raster.role(path) == "arrival" and probability_maps.refusal(path) is None
     )
+
+
+def resembles(path: Path) -> bool:
+    """Check whether a file is a raster, or has the suffix of a landscape."""
+    return raster.is_raster(path) or (path.suffix.lower() == ".lcp" and path.is_file())
+
+
+def why(paths: list[Path]) -> str:
+    """Say that a landscape is not enough."""
+    lands = any(path.suffix.lower() == ".lcp" for path in paths)
+    return "a landscape without a fire: give its arrival times too" if lands else ""
 
 
 def read(paths: list[Path], options: Options) -> Model:

@@ -20,7 +20,8 @@ from ..models.grid import Grid
 from ..models.model import Model, Options
 from ..models.raster import local
 
-NAME = "ForeFire output"
+NAME, ORDER = "ForeFire output", 30
+MODELS = "ForeFire"
 
 _UNBURNED = -9999.0
 _FAR = 84.0  # degrees; the model writes fronts of domains with a UTM corner beyond it

@@ -17,7 +17,9 @@ from ...errors import input_error
 from ..models import companion_rasters, from_arrival_time, masks, raster
 from ..models.model import Model, Options
 
-NAME = "burned masks by time in one GeoTIFF"
+NAME, ORDER = "burned masks by time in one GeoTIFF", 70
+MODELS = ""
+RASTER = "or burned_mask.tif, with a band for each time"
 
 _NAMED = re.compile(r"(?<![a-z])(burn(ed|t)?|masks?|fractions?)(?![a-z])")
 _HOUR = 3600.0

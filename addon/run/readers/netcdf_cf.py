@@ -22,7 +22,8 @@ from ..models import companion_rasters, from_arrival_time, masks, netcdf, option
 from ..models.grid import Grid
 from ..models.model import Model, Options, read_until
 
-NAME = "netCDF or zarr with latitude, longitude and time"
+NAME, ORDER = "netCDF or zarr with latitude, longitude and time", 100
+MODELS = "or netCDF or zarr with latitude and longitude"
 
 _MOVING = ("heat_flux", "burned_fraction", "temperature", "wind_east", "wind_north")
 _LEVELS = ("smoke_3d", "temperature_3d", "height_3d", "wind_east_3d", "wind_north_3d", "wind_up_3d")
@@ -32,6 +33,11 @@ _STILL = ("elevation", "surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel
 def sniff(path: Path) -> bool:
     """Check whether a file is any netCDF file or zarr store; this reader is tried last."""
     return netcdf.is_netcdf(path) or zarr_store.is_store(path)
+
+
+def resembles(path: Path) -> bool:
+    """Check whether a file begins as netCDF does, or a folder is a zarr store."""
+    return netcdf.is_netcdf(path) or (path.is_dir() and zarr_store.is_store(path))
 
 
 def read(paths: list[Path], options: Options) -> Model:

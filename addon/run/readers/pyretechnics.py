@@ -22,7 +22,8 @@ from ..models.grid import Grid
 from ..models.model import Model, Options
 from ..models.raster import local
 
-NAME = "arrays of pyretechnics"
+NAME, ORDER = "arrays of pyretechnics", 60
+MODELS = "pyretechnics"
 
 _LARGEST = 1 << 32  # bytes of one matrix
 
@@ -37,6 +38,17 @@ def sniff(path: Path) -> bool:
             return "time_of_arrival.npy" in archive.namelist()
     except (OSError, zipfile.BadZipFile):
         return False
+
+
+def resembles(path: Path) -> bool:
+    """Check whether a file has the suffix of array archives."""
+    return path.suffix.lower() == ".npz" and path.is_file()
+
+
+def why(paths: list[Path]) -> str:
+    """Say what an archive needs."""
+    said = "has no array time_of_arrival, by which pyretechnics' output is known"
+    return said if resembles(paths[0]) else ""
 
 
 def read(paths: list[Path], options: Options) -> Model:

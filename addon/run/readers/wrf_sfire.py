@@ -25,7 +25,8 @@ from ..models.grid import Grid
 from ..models.model import Model, Options, read_until
 from ..models.raster import local
 
-NAME = "WRF-SFIRE output"
+NAME, ORDER = "WRF-SFIRE output", 10
+MODELS = "WRF-SFIRE"
 
 _FIRE = ("FGRNHFX", "LFN", "FIRE_AREA", "TIGN_G")
 _T0, _P0, _RD, _CP, _RV, _G = 300.0, 1e5, 287.0, 1004.5, 461.6, 9.81  # WRF's own constants

@@ -10,8 +10,7 @@ from .. import reading
 from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch
 
-NAME = "station file"
-ORDER = 10
+NAME, ORDER = "station file", 10
 
 
 def sniff(path: Path, head: bytes) -> bool:

@@ -17,8 +17,7 @@ from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch, Draft
 from . import positions, tables
 
-NAME = "HIFLD fire stations"
-ORDER = 30
+NAME, ORDER = "HIFLD fire stations", 30
 LICENCE = "public domain (HIFLD: free of licence)"
 URL = "https://hifld-geoplatform.hub.arcgis.com"
 

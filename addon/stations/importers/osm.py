@@ -20,8 +20,7 @@ from .. import import_rows
 from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch, Draft
 
-NAME = "OpenStreetMap, (c) OpenStreetMap contributors"
-ORDER = 40
+NAME, ORDER = "OpenStreetMap, (c) OpenStreetMap contributors", 40
 LICENCE = "ODbL 1.0"
 URL = "https://www.openstreetmap.org/copyright"
 

@@ -15,8 +15,7 @@ from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch
 from . import column_names, days, drafts
 
-NAME = "point layer"
-ORDER = 60
+NAME, ORDER = "point layer", 60
 
 _SQLITE = b"SQLite format 3\0"
 

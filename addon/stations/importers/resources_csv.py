@@ -21,8 +21,7 @@ from ..reading import NUMBERS
 from ..records import MODES, ORIGINS, STAFFING, STATUSES, Resource
 from . import column_names, tables
 
-NAME = "CSV of resources"
-ORDER = 50
+NAME, ORDER = "CSV of resources", 50
 
 _NAMES = {
     "station": {"station", "station_id", "base"},

@@ -11,8 +11,7 @@ from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch
 from . import column_names, drafts, positions, tables
 
-NAME = "CSV of stations"
-ORDER = 70
+NAME, ORDER = "CSV of stations", 70
 
 
 def sniff(path: Path, head: bytes) -> bool:

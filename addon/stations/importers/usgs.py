@@ -18,8 +18,7 @@ from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch, Draft
 from . import days
 
-NAME = "USGS National Structures Dataset"
-ORDER = 20
+NAME, ORDER = "USGS National Structures Dataset", 20
 LICENCE = "public domain (US Geological Survey)"
 URL = "https://www.usgs.gov/national-structures-dataset"
 

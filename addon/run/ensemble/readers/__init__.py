@@ -1,25 +1,20 @@
 """Readers of ensembles: each module reads the members of one fire model, recognised by names and content.
 
 A module has ``NAME``, the format's name for people, ``sniff(paths) -> bool``, whether the files are an
-ensemble of this format, and ``read(paths, options, horizon) -> MemberSet``.
+ensemble of this format, and ``read(paths, options, horizon) -> MemberSet``. They are tried in the order of
+``ORDER``.
 """
 
 from __future__ import annotations
 
-import importlib
 from pathlib import Path
 
+from .... import plugins
 from ....errors import InputError, input_error
 from ...models import probability_maps
 from ...models.model import Options
 from ..member_set import MemberSet
 from .files_in import files_in
-
-READERS = (
-    *("samples", "cell2fire", "gridfire", "elmfire", "ranked", "quicfire", "wrf_sets", "wise"),
-    *("farsite", "folders"),
-)
-"""Modules, in the order in which they are tried."""
 
 
 def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
@@ -37,7 +32,7 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     InputError
         No reader recognises them, or a file is damaged.
     """
-    modules = [importlib.import_module(f".{name}", __name__) for name in READERS]
+    modules = plugins.modules(__name__, "read").values()
     for module in modules:
         if module.sniff(paths):
             return module.read(paths, options, horizon)

@@ -25,7 +25,7 @@ from ..manifest import Manifest, Member
 from ..member_set import MemberSet
 from .files_in import files_in
 
-NAME = "Cell2Fire"
+NAME, ORDER = "Cell2Fire", 20
 
 _MESSAGES = re.compile(r"MessagesFile(\d+)\.csv$")
 _LOG = "ignition_and_weather_log.csv"

@@ -26,7 +26,7 @@ from ..manifest import Manifest, Member
 from ..member_set import MemberSet
 from .files_in import files_in
 
-NAME = "ELMFIRE"
+NAME, ORDER = "ELMFIRE", 40
 
 _MAP = re.compile(r"time_of_arrival_(\d{7})_(\d+)$")
 _LIST = re.compile(r"toa_(\d{4})_(\d{7})$")

@@ -21,7 +21,7 @@ from ..member_set import MemberSet
 from . import rasters
 from .files_in import add_member, files_in
 
-NAME = "FARSITE or FlamMap"
+NAME, ORDER = "FARSITE or FlamMap", 90
 
 _MINUTE = 60.0
 _NAME = re.compile(r"[ _-]*arrival[ _]?time$", re.IGNORECASE)

@@ -21,7 +21,7 @@ from .. import write
 from ..manifest import Manifest, Member
 from ..member_set import MemberSet
 
-NAME = "a folder for each member"
+NAME, ORDER = "a folder for each member", 100
 
 _TOLERANCE = 0.01  # of a cell
 

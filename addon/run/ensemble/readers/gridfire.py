@@ -27,7 +27,7 @@ from ..manifest import Manifest, Member
 from ..member_set import MemberSet
 from .files_in import add_member, files_in
 
-NAME = "GridFire"
+NAME, ORDER = "GridFire", 30
 
 _LIST = re.compile(r"toa_\d{4}_(\d{5})\.bin$")
 _STATISTICS = re.compile(r"summary_stats.*\.csv$")

@@ -28,7 +28,7 @@ from .. import write
 from ..manifest import Manifest, Member
 from ..member_set import MemberSet
 
-NAME = "QUIC-Fire"
+NAME, ORDER = "QUIC-Fire", 60
 
 _MASS = re.compile(r"mburnt_integ-(\d+)\.bin$")
 _GRID, _FIRE = "QU_simparams.inp", "QUIC_fire.inp"

@@ -24,7 +24,7 @@ from ..member_set import MemberSet
 from . import rasters
 from .files_in import files_in
 
-NAME = "ranks of fire size (elmfire_post, Pyrecast)"
+NAME, ORDER = "ranks of fire size (elmfire_post, Pyrecast)", 50
 
 _HOUR = 3600.0
 _MAP = re.compile(r"time-of-arrival_(\d\d)$")

@@ -33,7 +33,7 @@ from .. import write
 from ..manifest import Manifest, Member
 from ..member_set import MemberSet
 
-NAME = "samples described in a TOML file ([samples])"
+NAME, ORDER = "samples described in a TOML file ([samples])", 10
 
 _UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 _AXES = {"burned": ("member", "time", "y", "x"), "arrival": ("member", "y", "x")}

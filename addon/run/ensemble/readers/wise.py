@@ -26,7 +26,7 @@ from ..manifest import Manifest, Member
 from ..member_set import MemberSet
 from .files_in import files_in
 
-NAME = "W.I.S.E. or Prometheus scenarios in KML"
+NAME, ORDER = "W.I.S.E. or Prometheus scenarios in KML", 80
 
 _CELLS = 400  # along the longer side
 _MARGIN = 0.1  # of that side

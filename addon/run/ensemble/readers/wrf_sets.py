@@ -24,7 +24,7 @@ from ..manifest import Manifest, Member
 from ..member_set import MemberSet
 from .files_in import files_in
 
-NAME = "WRF-SFIRE sets"
+NAME, ORDER = "WRF-SFIRE sets", 70
 
 _AREA = "FIRE_AREA"
 _UNITS = {"seconds": 1.0, "minutes": 60.0, "hours": 3600.0, "days": 86400.0}
