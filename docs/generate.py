@@ -260,8 +260,9 @@ def read_summary(module: Path) -> str:
 
 def format_layers() -> str:
     """Format the layers of the contracts in pyproject.toml, from the highest down, with what each has."""
-    configuration = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    out = []
+    rooms = " ".join(sorted(path.parent.name for path in (ROOT / "addon").glob("*/command.py")))
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8").replace("{rooms}", rooms)
+    configuration, out = tomllib.loads(text), []
     for contract in configuration["tool"]["importlinter"]["contracts"]:
         for container in contract.get("containers", []):
             folder = ROOT.joinpath("addon", *container.split(".")[1:])

@@ -24,7 +24,7 @@ from ..stations import reading
 from ..stations.records import Resource, Station
 from ..stations.station_file import StationFile
 from . import context, film, forecast, inputs, layers, reached
-from .arguments import LIMIT
+from .command import LIMIT
 from .context import Context
 from .film import Film
 from .forecast import Forecast

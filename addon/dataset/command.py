@@ -1,105 +1,71 @@
-"""Verbs of `firetwin dataset`."""
+"""`firetwin dataset`: labelled training data."""
 
 from __future__ import annotations
 
 import argparse
-import json
-from pathlib import Path
-from typing import Any
 
-from ..progress import Reporter, count, result, say
-from ..shot.schema.frame_list import FrameList
-from . import check, draw_labels, finish, formats, members, plan_file, produce, sample_job
-from .draws import count_rejects
-from .plan import SPLITS
-from .produce import Production
-from .splits import Splits
+from .. import argument_types as types
+from ..command import FILMS, Command, add_verb
 
+VERBS = ("make", "formats", "check", "draw")
+_MAKE = VERBS[0]
+_FORMATS = "coco,yolo"
 
-def run(arguments: argparse.Namespace) -> int:
-    """Run the requested verb; returns the exit status."""
-    if arguments.verb == "check":
-        return _check(arguments.folder)
-    if arguments.verb == "draw":
-        for path in draw_labels.write(arguments.folder, arguments.only, arguments.out):
-            result(path)
-        return 0
-    names = formats.names(arguments.format)
-    if arguments.verb == "formats":
-        _finish(arguments.folder, names)
-        return 0
-    plan = plan_file.read(arguments.plan)
-    if any(run.ensemble for run in plan.runs):
-        with produce.alone(arguments.out, "members"):
-            members.convert(plan, Reporter("converting"), say)
-    production = produce.prepare(plan, arguments.out, arguments.only, Reporter())
-    if arguments.estimate and arguments.json:
-        result(json.dumps(_facts(production), indent=1))
-        return 0
-    lines = production.estimate().lines() + _describe(production)
-    if arguments.estimate:
-        result("\n".join(lines))
-        return 0
-    for line in lines:
-        say(line)
-    reporter = Reporter(produce.SAMPLES)
-    try:
-        produce.run(production, sample_job.make, reporter, say)
-    finally:
-        reporter.close()
-    if arguments.only:
-        result(arguments.out)
-        return 0
-    _finish(arguments.out, names)
-    return 0
+_DETAIL = """\
+Renders labelled samples of the runs of a plan, for the training of detectors of fire and smoke. Each sample
+has a picture, its twin without smoke, alpha of smoke, depth, classes, a thermal picture, and metadata.
+
+  firetwin dataset PLAN.toml --out DIR              make or continue the data set, with its formats and report
+  firetwin dataset PLAN.toml --out DIR --estimate   print time, size and rejected cameras; make nothing
+  firetwin dataset PLAN.toml --out DIR --only 0137  make these samples alone
+  firetwin dataset formats DIR --format yolo,voc    write a finished data set in other formats
+  firetwin dataset check DIR                        check files, hashes, labels, formats and splits
+  firetwin dataset draw DIR --out FOLDER            draw the labels of samples onto their pictures
+
+Several processes, also on several machines, can make one data set at the same time. A stopped process loses
+only the samples that it had not finished. `examples/dataset.toml` shows every key of a plan."""
 
 
-def _describe(production: Production) -> list[str]:
-    """Describe the draws of a production: splits, and cameras that were rejected."""
-    draws = production.draws
-    splits: dict[str, int] = {}
-    for each in draws.values():
-        splits[each.split] = splits.get(each.split, 0) + 1
-    by = Splits(production.plan).by
-    parts = ", ".join(f"{name} {splits[name]:,}" for name in SPLITS if name in splits)
-    found = [f"splits by {by}: {parts}"]
-    if by == "camera":
-        found.append("all splits show the same fires, as there are fewer places and runs than splits")
-    if rejects := count_rejects(draws):
-        reasons = ", ".join(f"{reason} {number:,}" for reason, number in rejects.items())
-        found.append(f"{count(sum(rejects.values()), 'camera')} rejected and drawn again: {reasons}")
-    return found
+def _insert_verb(words: list[str]) -> tuple[list[str], list[str]]:
+    """Insert the verb `make` in a command line without a verb."""
+    has_verb = not words or words[0] in (*VERBS, "-h", "--help")
+    return (words if has_verb else [_MAKE, *words]), []
 
 
-def _facts(production: Production) -> dict[str, Any]:
-    """Collect the estimate for other programs; samples of one scene are made together."""
-    found = production.estimate()
-    scenes = [FrameList.of(each.index for each in visit.draws) for visit in production.visits]
-    return {
-        "count": production.plan.count,
-        "missing": found.samples,
-        "seconds": round(found.seconds),
-        "bytes": round(found.bytes),
-        "scenes": scenes,
-        "rejects": count_rejects(production.draws),
-        "splits": {index: each.split for index, each in production.draws.items()},
-    }
+def _add(parser: argparse.ArgumentParser) -> None:
+    """Define the verbs."""
+    verbs = parser.add_subparsers(dest="verb", metavar="PLAN|VERB", required=True)
+
+    make = add_verb(verbs, _MAKE, "make or continue a data set (the default verb)")
+    make.add_argument("plan", metavar="PLAN.toml", type=types.path, help="plan of the data set")
+    make.add_argument("--out", metavar="DIR", type=types.path, required=True, help="folder of the data set")
+    make.add_argument(
+        "--only", metavar="LIST", default="", help="samples to make, such as 0137 or 1-20 (all)"
+    )
+    make.add_argument("--estimate", action="store_true", help="print an estimate; make nothing")
+    make.add_argument("--json", action="store_true", help="write the estimate as JSON")
+    formats = add_verb(verbs, "formats", "write a finished data set in other formats")
+    for each in (make, formats):
+        help = f"formats of the labels, such as coco,yolo,voc, or all ({_FORMATS})"
+        each.add_argument("--format", metavar="LIST", default=_FORMATS, help=help)
+    check = add_verb(verbs, "check", "check a finished data set; the exit status is 1 if it has faults")
+    draw = add_verb(verbs, "draw", "draw the labels of samples onto their pictures")
+    draw.add_argument(
+        "--out", metavar="FOLDER", type=types.path, required=True, help="folder of the pictures, PNG"
+    )
+    help = "samples to draw, such as 0137 or 1-20 (24 of them)"
+    draw.add_argument("--only", metavar="LIST", default="", help=help)
+    for each in (formats, check, draw):
+        each.add_argument("folder", metavar="DIR", type=types.path, help="folder of the data set")
 
 
-def _check(folder: Path) -> int:
-    """Print the findings of a data set; returns 1 if it has faults."""
-    reporter, faults = Reporter("checking samples"), 0
-    for finding in check.check(folder, reporter):
-        result(f"{'' if finding.is_fault else 'note: '}{finding.text}")
-        faults += finding.is_fault
-    reporter.close()
-    say("no faults" if not faults else count(faults, "fault"))
-    return 1 if faults else 0
+def _run(arguments: argparse.Namespace) -> int:
+    """Make labelled training data, or write it in other formats."""
+    from . import verbs
+
+    return verbs.run(arguments)
 
 
-def _finish(out: Path, names: tuple[str, ...]) -> None:
-    """Write formats, card, report and hashes of a data set; one process at a time."""
-    with produce.alone(out, "finish"):
-        produce.remove_parts(out)
-        for path in finish.write(out, names, say):
-            result(path)
+COMMAND = Command(
+    "dataset", "make labelled training data from a plan", _DETAIL, FILMS, _run, _add, prepare=_insert_verb
+)

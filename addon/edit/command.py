@@ -1,23 +1,40 @@
-"""The command `firetwin edit`."""
+"""`firetwin edit`: a cut of the films of a scene."""
 
 from __future__ import annotations
 
 import argparse
 
-from .. import files
-from ..errors import UsageError
-from ..progress import count, result, say
-from ..shot import passes
-from ..shot.runs import scene_runs
-from ..shot.schema.did_you_mean import suggestion
-from ..shot.shot import Shot
-from . import cut, edl, fcp_xml, markers, media, otio
+from .. import argument_types as types
+from ..command import FILMS, Command, add_scene
 
 STEM = "film"
-_FORMATS = {".otio": otio.text, ".xml": fcp_xml.text, ".edl": edl.text}
+
+_DETAIL = """\
+Writes film.otio, film.xml (Final Cut Pro 7 XML) and film.edl (CMX 3600) of the films of firetwin render.
+Track V1 is a cut of the cameras in the order of the scene file; the tracks above have one camera each and
+are disabled. Markers show ignition, flare-ups, and the fire's arrival at towns and stations. The EDL has only
+V1."""
 
 
-def run(arguments: argparse.Namespace, shot: Shot) -> None:
+def _add(parser: argparse.ArgumentParser) -> None:
+    """Define the arguments."""
+    add_scene(parser)
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        type=types.path,
+        required=True,
+        help="folder to write, usually of firetwin render",
+    )
+    parser.add_argument(
+        "--film", metavar="DIR", type=types.path, help="folder of firetwin render, if another"
+    )
+    parser.add_argument(
+        "--pass", dest="name", metavar="NAME", type=types.name, default="rgb", help="pass of the films (rgb)"
+    )
+
+
+def _run(arguments: argparse.Namespace) -> None:
     """Write the edit of a scene's films.
 
     Raises
@@ -25,6 +42,17 @@ def run(arguments: argparse.Namespace, shot: Shot) -> None:
     UsageError
         There is no such pass.
     """
+    from .. import files
+    from ..auto_framing import fitted_scene
+    from ..errors import UsageError
+    from ..progress import count, result, say
+    from ..shot import passes
+    from ..shot.runs import scene_runs
+    from ..shot.schema.did_you_mean import suggestion
+    from . import cut, edl, fcp_xml, markers, media, otio
+
+    shot = fitted_scene.find_source(arguments).shot()
+    formats = {".otio": otio.text, ".xml": fcp_xml.text, ".edl": edl.text}
     known = [name for name, each in passes.known().items() if each.film]
     if arguments.name not in known:
         hint = suggestion(arguments.name, known)
@@ -42,7 +70,10 @@ def run(arguments: argparse.Namespace, shot: Shot) -> None:
         say(f"omitted panoramas, other runs' views and cameras without a film: {', '.join(omitted)}")
     clips, films = count(len(made.cut), "clip"), count(len(found), "film")
     say(f"cut {clips} of {films}, {count(len(made.markers), 'marker')}")
-    for suffix, text in _FORMATS.items():
+    for suffix, text in formats.items():
         path = arguments.out / f"{STEM}{suffix}"
         files.write_text(path, text(made), newline="\n")
         result(path)
+
+
+COMMAND = Command("edit", "cut films into OTIO, Final Cut Pro XML and EDL files", _DETAIL, FILMS, _run, _add)

@@ -1,146 +1,88 @@
-"""Verbs of `firetwin farm`."""
+"""`firetwin farm`: a film on a render farm."""
 
 from __future__ import annotations
 
 import argparse
-import json
-import shlex
-import subprocess
-from collections.abc import Callable
 from pathlib import Path
 
-from ..errors import Error, UsageError
-from ..progress import Reporter, count, result, say
-from ..shot.schema.frame_list import FrameList
-from ..shot.source import ShotSource
-from . import assemble, dataset_job, plan, status, submission, task
-from .submission import Submission
+from .. import argument_types as types
+from ..command import FILMS, Command, add_verb
 
-_MAX_TASK_NUMBER = 10**9 - 1  # far above any real number of tasks
+_ENGINES = Path(__file__).parent / "engines"
+VERBS = ("plan", "status", "resume", "cancel", "task", "assemble")
+_PLAN = VERBS[0]
 
+_DETAIL = """\
+Divides the film into tasks in three stages (bake, render, assemble), writes the job to DIR/farm and prints
+the command that submits it; --submit runs that command. Options after `--` go to the scheduler's command.
 
-def run(arguments: argparse.Namespace, choice: Callable[[argparse.Namespace], ShotSource]) -> int | None:
-    """Run the requested verb; returns the exit status.
+  firetwin farm SCENE.toml --engine slurm --out DIR --submit -- --partition=gpu --time=4:00:00
+  firetwin farm status DIR     tasks and pictures that are done, running, failed or waiting; remaining time
+  firetwin farm resume DIR     check all pictures and submit the tasks of missing or damaged ones
+  firetwin farm cancel DIR     cancel the submitted tasks
 
-    Parameters
-    ----------
-    choice
-        Function that finds the scene of a command line.
-    """
-    if arguments.verb == "plan" and dataset_job.is_plan(arguments.scene):
-        run_dataset_plan(arguments)
-        return 0
-    if arguments.verb == "plan":
-        run_plan(arguments, choice(arguments))
-        return 0
-    verbs: dict[str, Callable[[argparse.Namespace], int | None]] = {
-        "status": run_status,
-        "resume": run_resume,
-        "cancel": run_cancel,
-        "task": run_task,
-        "assemble": run_assemble,
-    }
-    return verbs[arguments.verb](arguments)
+Schedulers run `firetwin farm task DIR N` and `firetwin farm assemble DIR`. Exit status: 0 done, 1 failed
+(assemble: pictures are missing), 2 invalid input, 75 no GPU or disk space now, 143 ended by SIGTERM."""
 
 
-def run_plan(arguments: argparse.Namespace, choice: ShotSource) -> None:
-    """Plan a film; print the command that submits it, or run that command."""
-    scene, out = Path(choice.scene).absolute(), arguments.out.absolute()
-    shot = choice.shot()
-    job = plan.make_job(shot, scene, arguments.chunk or plan.CHUNK)
-    say(shot.describe_film())
-    _submit_job(arguments, job, out)
+def _split_options(words: list[str]) -> tuple[list[str], list[str]]:
+    """Split words at `--`, and insert the verb `plan` if no verb is given."""
+    at = words.index("--") if "--" in words else len(words)
+    ours, options = words[:at], words[at + 1 :]
+    if ours and ours[0] not in (*VERBS, "-h", "--help"):
+        ours = [_PLAN, *ours]
+    return ours, options
 
 
-def run_dataset_plan(arguments: argparse.Namespace) -> None:
-    """Plan a data set; print the command that submits it, or run that command."""
-    out = arguments.out.absolute()
-    job = dataset_job.make_job(arguments.scene.absolute(), out, arguments.chunk or plan.CHUNK)
-    _submit_job(arguments, job, out)
+def _engines() -> list[str]:
+    """List the schedulers by file name, without loading them."""
+    return sorted(path.stem for path in _ENGINES.glob("[a-z]*.py"))
 
 
-def _submit_job(arguments: argparse.Namespace, job: plan.Job, out: Path) -> None:
-    """Write a job and the files of its scheduler; submit it, or print the command."""
-    plan.write(job, out)
-    for line in submission.describe(job, out):
-        say(line)
-    command = submission.prepare(out, Submission(arguments.engine, tuple(arguments.options)))
-    if arguments.submit:
-        _submit(command)
-    else:
-        result(shlex.join(command))
+def _add(parser: argparse.ArgumentParser) -> None:
+    """Define the verbs."""
+    verbs = parser.add_subparsers(dest="verb", metavar="SCENE|VERB", required=True)
+
+    plan = add_verb(verbs, _PLAN, "plan a film and write the scheduler's job (the default verb)")
+    plan.add_argument("scene", metavar="SCENE|RUN", type=types.path, help="scene file, or run folder")
+    plan.add_argument("--engine", choices=_engines(), required=True, help="scheduler that runs the tasks")
+    plan.add_argument(
+        "--out", metavar="DIR", type=types.path, required=True, help="folder for the film and the job"
+    )
+    plan.add_argument(
+        "--chunk",
+        metavar="N",
+        type=types.count,
+        help="maximum frames per task (30)",
+    )
+    plan.add_argument("--submit", action="store_true", help="submit the job")
+    for name, summary in (
+        ("status", "print the progress of a job, read from its files"),
+        ("resume", "submit the tasks whose pictures are missing or damaged"),
+        ("cancel", "cancel the submitted tasks"),
+        ("task", "run tasks of a job; schedulers call this"),
+        ("assemble", "check all pictures, then write films and manifest"),
+    ):
+        found = add_verb(verbs, name, summary)
+        found.add_argument("out", metavar="DIR", type=types.path, help="folder of the film")
+        if name == "status":
+            found.add_argument("--json", action="store_true", help="write JSON")
+        if name in ("task", "assemble"):
+            found.add_argument(
+                "--scene",
+                metavar="FILE",
+                type=types.path,
+                help="scene file on this machine (path at planning)",
+            )
+        if name == "task":
+            found.add_argument("numbers", metavar="N", help="task numbers, such as 7 or 3-5")
 
 
-def run_status(arguments: argparse.Namespace) -> None:
-    """Print the progress of a job."""
-    found = status.gather(arguments.out)
-    result(json.dumps(found.as_json(), indent=1) if arguments.json else status.format_text(found))
+def _run(arguments: argparse.Namespace) -> int | None:
+    """Plan, run or follow a farm job."""
+    from . import verbs
+
+    return verbs.run(arguments)
 
 
-def run_resume(arguments: argparse.Namespace) -> None:
-    """Submit the tasks of missing pictures with the previous scheduler and options."""
-    out = arguments.out.absolute()
-    missing, numbers = submission.find_missing(out, Reporter())
-    before = submission.last_submission(out)
-    say(f"{count(len(missing), 'picture')} missing: {count(len(numbers), 'task')} to submit")
-    options = tuple(arguments.options) or before.options
-    _submit(submission.prepare(out, Submission(before.engine, options), numbers))
-
-
-def run_cancel(arguments: argparse.Namespace) -> int:
-    """Cancel the submitted tasks."""
-    return _call(submission.cancel_command(arguments.out.absolute()))
-
-
-def run_task(arguments: argparse.Namespace) -> int:
-    """Run tasks; the exit status shows whether a retry is worthwhile."""
-
-    def work() -> None:
-        try:
-            numbers = FrameList(arguments.numbers).frames(_MAX_TASK_NUMBER)
-        except ValueError as error:
-            raise UsageError(f"tasks: {error}") from None
-        task.run(arguments.out.absolute(), numbers, _scene(arguments))
-
-    return _status(arguments, work)
-
-
-def run_assemble(arguments: argparse.Namespace) -> int:
-    """Enter all pictures and make the films; list missing pictures."""
-    out, missing = arguments.out.absolute(), {}
-    status = _status(arguments, lambda: missing.update(assemble.run(out, _scene(arguments), Reporter(), say)))
-    for line in assemble.format_missing(missing):
-        result(line)
-    if missing:
-        say(f"{count(len(missing), 'picture')} missing; run: firetwin farm resume {shlex.quote(str(out))}")
-    return status or (1 if missing else 0)
-
-
-def _status(arguments: argparse.Namespace, work: Callable[[], None]) -> int:
-    """Run the work of a scheduler's command; returns the exit status for the scheduler."""
-    try:
-        work()
-    except (Error, UsageError, OSError) as error:
-        if arguments.debug:
-            raise
-        say(" ".join(str(error).split()))
-        return task.exit_status(error)
-    return 0
-
-
-def _scene(arguments: argparse.Namespace) -> str:
-    return str(arguments.scene) if arguments.scene else ""
-
-
-def _submit(command: list[str]) -> None:
-    """Run the submit command."""
-    if status := _call(command):
-        raise Error(f"{shlex.join(command)} ended with exit status {status}")
-
-
-def _call(command: list[str]) -> int:
-    """Run a scheduler's command and show its output; returns its exit status."""
-    try:
-        return subprocess.run(command).returncode
-    except FileNotFoundError:
-        raise submission.not_installed_error(command) from None
+COMMAND = Command("farm", "plan a film for a render farm", _DETAIL, FILMS, _run, _add, prepare=_split_options)

@@ -6,10 +6,11 @@ import argparse
 import math
 import re
 from collections.abc import Callable
-from datetime import date, datetime
-from pathlib import Path
+from datetime import date
 
+from .. import argument_types as types
 from .. import limits
+from ..command import add_verb
 from .import_options import MEANINGS
 from .records import DETOUR, MODES, STAFFING
 
@@ -45,21 +46,18 @@ it by when. For a file without resources the stations are listed, as with
 _LENGTHS = {"": 1.0, "km": 1.0, "m": 0.001, "mi": 1.609344}
 
 
-def add_stations(parser: argparse.ArgumentParser, path: Callable[[str], Path]) -> None:
+def add_stations(parser: argparse.ArgumentParser) -> None:
     """Define the verbs of `firetwin stations`."""
     verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True)
 
-    def verb(name: str, summary: str) -> argparse.ArgumentParser:
-        found = verbs.add_parser(name, help=summary, description=f"{summary[0].upper()}{summary[1:]}.")
-        found.add_argument("--debug", action="store_true", help="show a traceback when something fails")
-        return found
-
     def out(parser: argparse.ArgumentParser) -> None:
-        parser.add_argument("--out", metavar="STATIONS.gpkg", type=path, required=True, help="file to write")
+        parser.add_argument(
+            "--out", metavar="STATIONS.gpkg", type=types.path, required=True, help="file to write"
+        )
         parser.add_argument("--overwrite", action="store_true", help="replace an existing file")
 
-    made = verb("import", "make a station file from other files")
-    made.add_argument("files", metavar="FILE", nargs="+", type=path, help="files in any known format")
+    made = add_verb(verbs, "import", "make a station file from other files")
+    made.add_argument("files", metavar="FILE", nargs="+", type=types.path, help="files in any known format")
     out(made)
     made.add_argument("--source", metavar="NAME", default="", help="name of the source (by format)")
     made.add_argument("--licence", metavar="TEXT", default="", help="licence of the data (by format)")
@@ -83,28 +81,30 @@ def add_stations(parser: argparse.ArgumentParser, path: Callable[[str], Path]) -
         "--skip-bad", action="store_true", help="omit files that cannot be read or have no valid row"
     )
 
-    exercise = verb("exercise", "invent resources of an exercise around the fire of a run")
-    exercise.add_argument("run", metavar="RUN", type=path, help="run folder, or scene file (its first run)")
+    exercise = add_verb(verbs, "exercise", "invent resources of an exercise around the fire of a run")
+    exercise.add_argument(
+        "run", metavar="RUN", type=types.path, help="run folder, or scene file (its first run)"
+    )
     out(exercise)
     exercise.add_argument(
-        "--towns", metavar="FILE", type=path,
+        "--towns", metavar="FILE", type=types.path,
         help="CSV or GeoJSON of bases: name, latitude, longitude (published towns of a known fire)",
     )  # fmt: skip
     exercise.add_argument("--seed", metavar="N", type=_seed, default=0, help="random seed (0)")
 
-    info = verb("info", "list the content of a station file")
-    info.add_argument("file", metavar="STATIONS.gpkg", type=path, help="station file")
+    info = add_verb(verbs, "info", "list the content of a station file")
+    info.add_argument("file", metavar="STATIONS.gpkg", type=types.path, help="station file")
     info.add_argument("--json", action="store_true", help="write JSON")
 
 
-def add_resources(
-    parser: argparse.ArgumentParser, path: Callable[[str], Path], moment: Callable[[str], datetime]
-) -> None:
+def add_resources(parser: argparse.ArgumentParser) -> None:
     """Define the options of `firetwin resources`."""
-    parser.add_argument("file", metavar="STATIONS.gpkg", type=path, help="station file")
-    parser.add_argument("--run", metavar="RUN", type=path, help="run folder, or scene file (its first run)")
+    parser.add_argument("file", metavar="STATIONS.gpkg", type=types.path, help="station file")
     parser.add_argument(
-        "--ensemble", metavar="DIR", type=path,
+        "--run", metavar="RUN", type=types.path, help="run folder, or scene file (its first run)"
+    )
+    parser.add_argument(
+        "--ensemble", metavar="DIR", type=types.path,
         help="forecast of many members: times by which 10 and 50 %% of them burn each station (none)",
     )  # fmt: skip
     parser.add_argument(
@@ -142,7 +142,7 @@ def add_resources(
     parser.add_argument(
         "--available-at",
         metavar="TIME",
-        type=moment,
+        type=types.moment,
         help="time of availability, such as 2014-09-17T16:00-07:00",
     )
     parser.add_argument(

@@ -8,10 +8,10 @@ from . import (
     asset_library,
     assets,
     background,
+    blender_command,
     build,
     camera_targets,
     cameras_panel,
-    command,
     feature_panels,
     fly,
     foreign,
@@ -92,7 +92,7 @@ def register() -> None:
     for cls in classes:
         bpy.utils.register_class(cls)
     bpy.types.Scene.firetwin = bpy.props.PointerProperty(type=properties.FIRETWIN_PG_scene)
-    command.register()
+    blender_command.register()
     open.register()
     menus.register()
     manual.register()
@@ -134,7 +134,7 @@ def unregister() -> None:
     manual.unregister()
     menus.unregister()
     open.unregister()
-    command.unregister()
+    blender_command.unregister()
     del bpy.types.Scene.firetwin
     for cls in reversed(classes):
         bpy.utils.unregister_class(cls)

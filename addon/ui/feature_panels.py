@@ -1,31 +1,30 @@
-"""Panels of the installed optional features.
+"""Panels of the features of this installation: the module or package `panel` in each feature's folder.
 
-A panel's module has `classes` to register, `properties` (a class of annotations for the scene), `unregister`
-and, if it has more than classes, `register`.
+A panel has `classes` to register, `properties` (a class of annotations for the scene), `menu` (lines of the
+menu Firetwin by submenu), `unregister`, and, if it has more than classes, `register`.
 """
 
 from __future__ import annotations
 
+import importlib
+from pathlib import Path
 from types import ModuleType
 
-from .. import optional_features
+from .menu_entries import Line
 
-panels: list[ModuleType] = []
-if optional_features.is_installed("farm"):
-    from . import farm
-
-    panels.append(farm)
-if optional_features.is_installed("allocation"):
-    from . import allocation
-
-    panels.append(allocation)
-if optional_features.is_installed("export"):
-    from . import exports
-
-    panels.append(exports)
-
+_PACKAGE = Path(__file__).parents[1]
+_NAMES = sorted(
+    {path.parent.name for path in _PACKAGE.glob("*/panel.py")}
+    | {path.parents[1].name for path in _PACKAGE.glob("*/panel/__init__.py")}
+)
+panels: list[ModuleType] = [importlib.import_module(f"..{name}.panel", __package__) for name in _NAMES]
 classes = tuple(each for panel in panels for each in panel.classes)
 properties = tuple(panel.properties for panel in panels)
+
+
+def menu_lines(submenu: str) -> tuple[Line, ...]:
+    """Return the lines of the features in a submenu."""
+    return tuple(line for panel in panels for line in panel.menu.get(submenu, ()))
 
 
 def register() -> None:

@@ -6,45 +6,12 @@ camera key*.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
-
 import bpy
 
-from ..optional_features import is_installed
-from . import manual, panel_order, sections
+from . import feature_panels, manual, panel_order, sections
+from .menu_entries import Entry, Line, Submenu
 
-
-class Entry(NamedTuple):
-    """A menu entry: operator, text (empty: the operator's name), icon, and its options."""
-
-    operator: str
-    text: str = ""
-    icon: str = "NONE"
-    options: dict[str, Any] = {}
-    choice: str = ""  # option of which the entry is a submenu
-
-
-class Submenu(NamedTuple):
-    """A menu of another module, by its `bl_idname`, with a text that is complete in F3."""
-
-    name: str
-    text: str
-
-
-Line = Entry | Submenu
-
-_FARM = (
-    Entry("farm_write", icon="FILE_TICK"),
-    Entry("farm_submit", icon="EXPORT"),
-    Entry("farm_status", icon="FILE_REFRESH"),
-    Entry("farm_resume", icon="PLAY"),
-    Entry("farm_cancel", icon="CANCEL"),
-)
-_ALLOCATION = (Entry("allocate", icon="COMMUNITY"),)
-
-_EXPORT = (Entry("export_to", icon="EXPORT"),)
-
-MENUS: dict[str, tuple[Line, ...]] = {
+_OWN: dict[str, tuple[Line, ...]] = {
     "Run": (
         Entry("open", "Open run...", "FILEBROWSER"),
         Entry("sample", icon="LIGHT_SUN"),
@@ -69,7 +36,6 @@ MENUS: dict[str, tuple[Line, ...]] = {
         Entry("view", "View whole run", "WORLD_DATA", {"whole": True}),
         Entry("tiles_preview", icon="MESH_GRID"),
         Entry("tiles_clear", icon="TRASH"),
-        *(_ALLOCATION if is_installed("allocation") else ()),
         Entry("assets", icon="ASSET_MANAGER"),
         Entry("remove", icon="TRASH"),
     ),
@@ -108,8 +74,6 @@ MENUS: dict[str, tuple[Line, ...]] = {
         Entry("viewport_measure", icon="TIME"),
         Entry("f12_files", "Let F12 write files", "OUTPUT", {"on": True}),
         Entry("f12_files", "Stop F12 writing files", "OUTPUT", {"on": False}),
-        *(_FARM if is_installed("farm") else ()),
-        *(_EXPORT if is_installed("export") else ()),
         Entry("stop", icon="CANCEL"),
     ),
     "Help": (
@@ -119,7 +83,8 @@ MENUS: dict[str, tuple[Line, ...]] = {
         Entry("copy", "Copy details of last message", "COPYDOWN"),
     ),
 }
-"""Submenus of the menu Firetwin, and their lines."""
+MENUS = {name: (*lines[:-1], *feature_panels.menu_lines(name), lines[-1]) for name, lines in _OWN.items()}
+"""Submenus of the menu Firetwin, and their lines: those of features come before the last."""
 
 WITHOUT_ENTRY = {
     "convert": "Open run starts it",

@@ -10,13 +10,15 @@ import exercise_stations
 import panel_scene
 import pytest
 from firetwin.allocation import job as allocation_job
+from firetwin.allocation import panel as allocation
+from firetwin.allocation.panel import text as allocation_text
 from firetwin.blender import owned
 from firetwin.errors import Error
 from firetwin.jobs.worker import StoppedError
 from firetwin.scene.camera import ground_raycast
 from firetwin.scene.stations import control_line
 from firetwin.stations.records import EXERCISE
-from firetwin.ui import allocation, allocation_text, working
+from firetwin.ui import working
 
 
 def sent(name, station, arrival):

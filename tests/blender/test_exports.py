@@ -7,7 +7,7 @@ import bpy
 import panel_scene
 import pytest
 from firetwin.export import formats
-from firetwin.ui import exports
+from firetwin.export import panel as exports
 
 
 @pytest.fixture

@@ -9,9 +9,11 @@ import bpy
 import panel_scene
 import pytest
 from firetwin import cli
+from firetwin.farm import panel as farm
 from firetwin.farm import plan, submission
+from firetwin.farm.panel import watch as farm_watch
 from firetwin.jobs.worker import StoppedError
-from firetwin.ui import farm, farm_watch, job, working
+from firetwin.ui import job, working
 
 
 @pytest.fixture(scope="module")

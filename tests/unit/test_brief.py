@@ -15,8 +15,8 @@ import small_stations
 import whole_run
 from firetwin import cli, html_text
 from firetwin.brief import (
-    arguments,
     briefing,
+    command,
     curve,
     facts,
     film,
@@ -679,7 +679,7 @@ def test_the_command_wants_an_html_file(folder, tmp_path, capsys):
 
 
 def test_a_page_has_32_megabytes_at_most_unless_more_is_asked_for(folder, tmp_path, capsys):
-    assert arguments.LIMIT == 32_000_000
+    assert command.LIMIT == 32_000_000
     assert cli.main(["brief", str(folder), "--out", str(tmp_path / "page.html"), "--limit", "10KB"]) == 2
     assert "above the limit of 10 kB" in capsys.readouterr().err
 

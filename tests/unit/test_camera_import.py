@@ -6,7 +6,7 @@ import zipfile
 import numpy as np
 import pytest
 from firetwin import cli
-from firetwin.camera_import import command, foreign, kml, move, placing
+from firetwin.camera_import import foreign, job, kml, move, placing
 from firetwin.errors import InputError
 from firetwin.shot.cameras import rotation
 from firetwin.shot.source import ShotSource
@@ -221,4 +221,4 @@ def test_other_files_are_refused(scene, tmp_path):
     for name, words in (("a.fbx", "is not one of"), ("none.usda", "no such file")):
         arguments = type("Arguments", (), {"file": tmp_path / name})
         with pytest.raises(InputError, match=words):
-            command.run(arguments, None)
+            job.run(arguments, None)

@@ -96,21 +96,6 @@ sys.exit(main(["maps", *sys.argv[1:]]))
     assert "Traceback" not in result.stderr
 
 
-def test_the_extension_has_no_benchmarks_and_says_so():
-    code = """
-import sys
-from firetwin.cli import main
-class Gone:  # as in the extension
-    def find_spec(self, name, path=None, target=None):
-        if name == "firetwin.bench":
-            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-sys.meta_path.insert(0, Gone())
-sys.exit(main(["bench"]))
-"""
-    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert_one_line(result, 1, "benchmarks", "checkout")
-
-
 @pytest.mark.parametrize(
     "command",
     ["sample", "info", "new", "maps", "score", "imager", "build", "bake", "render", "schema", "bench"],

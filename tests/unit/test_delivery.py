@@ -8,7 +8,7 @@ import fileseq
 import pytest
 from firetwin import cli
 from firetwin.delivery import names, version
-from firetwin.delivery.arguments import PATTERN
+from firetwin.delivery.command import PATTERN
 from firetwin.errors import InputError, UsageError
 from firetwin.render import store
 from firetwin.render.picture import Picture, film

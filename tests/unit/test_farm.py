@@ -18,7 +18,7 @@ from firetwin.errors import (
     full_disk_error,
     input_error,
 )
-from firetwin.farm import arguments, assemble, assets, entries, lost, plan, private, status, task
+from firetwin.farm import assemble, assets, command, entries, lost, plan, private, status, task
 from firetwin.farm.engines import Batch, deadline, known, openjd
 from firetwin.farm.engines.slurm import split_arrays
 from firetwin.farm.entries import Entry
@@ -498,7 +498,7 @@ def test_a_bundle_names_all_files_and_values(tmp_path):
     assert inputs == ["/a/run.toml", str(tmp_path / "farm" / "job.json")]
 
 
-@pytest.mark.parametrize("verb", arguments.VERBS)
+@pytest.mark.parametrize("verb", command.VERBS)
 def test_every_verb_has_help(verb, capsys):
     with pytest.raises(SystemExit) as ended:
         cli.main(["farm", verb, "--help"])
@@ -507,11 +507,13 @@ def test_every_verb_has_help(verb, capsys):
 
 
 def test_the_command_line_takes_a_scene_or_a_verb():
-    assert arguments.split_options(["render", "x", "--"]) == (["render", "x", "--"], [])
-    line = ["farm", "scene.toml", "--engine", "slurm", "--", "--mem=1G", "-p", "x"]
-    assert arguments.split_options(line) == (["farm", "plan", *line[1:4]], ["--mem=1G", "-p", "x"])
-    assert arguments.split_options(["farm", "status", "out"]) == (["farm", "status", "out"], [])
-    assert set(arguments._engines()) == set(known())
+    line = "farm scene.toml --engine slurm --out film -- --mem=1G -p x"
+    parsed = cli.parse(line.split())
+    assert (parsed.verb, str(parsed.scene), parsed.options) == ("plan", "scene.toml", ["--mem=1G", "-p", "x"])
+    parsed = cli.parse(["farm", "status", "out"])
+    assert (parsed.verb, parsed.options) == ("status", [])
+    for name in known():
+        assert cli.parse(["farm", "scene.toml", "--engine", name, "--out", "film"]).engine == name
     assert all(engine.name == name for name, engine in known().items())
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import graphlib
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -21,7 +22,7 @@ NEVER_BPY = (
         "firetwin.plugins",
         "firetwin.progress",
     ),
-    *("firetwin.cli", "firetwin.commands", "firetwin.data"),
+    *("firetwin.cli", "firetwin.command", "firetwin.commands", "firetwin.data"),
     *("firetwin.run", "firetwin.stations", "firetwin.tiles"),
     *("firetwin.imaging", "firetwin.shot", "firetwin.smoke", "firetwin.auto_framing"),
     *("firetwin.jobs", "firetwin.farm", "firetwin.bench", "firetwin.brief", "firetwin.allocation"),
@@ -96,11 +97,27 @@ def test_no_import_goes_in_a_circle():
     graphlib.TopologicalSorter(graph).prepare()
 
 
+def test_nobody_imports_a_feature():
+    """A feature is a folder with a command; also imports within functions count."""
+    features = {path.parent.name for path in (ROOT / "addon").glob("*/command.py")}
+    assert {"brief", "farm"} <= features
+    for name, path in MODULES.items():
+        own = name.split(".")[1:2]
+        for line in re.findall(r"^ *from (\.\.+\w*)[\w.]* import (.*)$", path.read_text(), re.MULTILINE):
+            level = len(line[0]) - len(line[0].lstrip("."))
+            if level != len(name.split(".")) - (path.stem != "__init__"):
+                continue  # within the folder
+            reached = {line[0].lstrip(".")} if line[0].strip(".") else {*re.split(r"[ ,]+", line[1])}
+            assert not reached & (features - {*own}), f"{name} imports {reached & features}"
+
+
 def _without_bpy() -> list[str]:
     return [
         name
         for name in MODULES
-        if name not in WITH_BPY and any(name == each or name.startswith(f"{each}.") for each in NEVER_BPY)
+        if name not in WITH_BPY
+        and ".panel" not in name
+        and any(name == each or name.startswith(f"{each}.") for each in NEVER_BPY)
     ]
 
 
@@ -118,6 +135,7 @@ for name in sys.argv[1:]:
 
 
 ABOUT_ALL = {
+    "features",
     "floors",
     "handlers",
     "notebooks",

@@ -10,8 +10,6 @@ import tomllib
 
 import pytest
 from firetwin import cli, errors
-from firetwin.dataset.arguments import insert_verb
-from firetwin.farm.arguments import split_options
 from shown_code import PAGES, PROGRAM, ROOT, RUN, blocks
 
 SETUP = re.compile(r"python3 -m venv \w+$|[.\w]+/bin/pip install ")
@@ -31,7 +29,7 @@ def fault(line):
     if not PROGRAM.match(line):
         return "is not a command of Firetwin"
     try:
-        cli._parser().parse_args(cli._current_names(insert_verb(split_options(words[1:])[0])))
+        cli.parse(words[1:])
     except SystemExit as error:
         return "" if error.code == 0 else "has arguments that do not exist"
     except errors.UsageError as error:

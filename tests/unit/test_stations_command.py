@@ -7,7 +7,8 @@ from datetime import UTC, datetime, timedelta
 import numpy as np
 import pytest
 import small_stations
-from firetwin import cli, commands
+from firetwin import cli
+from firetwin.commands import _fire
 from firetwin.run import times
 from firetwin.run.ensemble import write
 from firetwin.run.ensemble.manifest import Manifest, Member
@@ -220,7 +221,7 @@ def test_the_head_is_where_the_fire_is_then(exercise, run, capsys):
     )
     assert status == 1
     assert "has no fire and therefore no head" in said
-    assert commands._open_fire(run).head(times.utc(opened, -60.0)) is None
+    assert _fire.open_fire(run).head(times.utc(opened, -60.0)) is None
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import json
 
 import pytest
 from firetwin import cli
-from firetwin.tiles import arguments, command, contents, info
+from firetwin.tiles import contents, info, list_command
 from firetwin.tiles.policies import Policy
 from lying_server import Reply, serving
 from polite import rude
@@ -84,8 +84,7 @@ def test_a_server_is_read_a_little_and_one_that_forbids_it_not_at_all(monkeypatc
         assert (facts["whole"], facts["tiles"], facts["kinds"]) == (True, 121, {"glb": 60})
     source = Memory({})
     source.policy = Policy(may_prefetch=False)
-    assert command._default_files(source) == 1
-    assert "tiles info" in arguments.DETAIL
+    assert list_command._default_files(source) == 1
 
 
 def test_a_tileset_in_metres_of_its_own(tmp_path):

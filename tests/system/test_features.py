@@ -1,4 +1,4 @@
-"""Optional features: an installation without their packages."""
+"""Features: an installation without the folder of one, and with the folder of another."""
 
 import os
 import shutil
@@ -6,16 +6,27 @@ import subprocess
 import sys
 from pathlib import Path
 
+import firetwin
 import pytest
-from firetwin import optional_features
 from scene_text import DRONE, NO_PLANTS, NO_SMOKE, TINY
 
-ADDON = Path(optional_features.__file__).parent
-PACKAGES = sorted(set(optional_features.COMMANDS.values()))
+ADDON = Path(firetwin.__file__).parent
+COMMANDS = {
+    "allocation": "allocate",
+    "bench": "bench",
+    "brief": "brief",
+    "camera_import": "import",
+    "dataset": "dataset",
+    "delivery": "deliver",
+    "edit": "edit",
+    "export": "export",
+    "farm": "farm",
+}
+PACKAGES = sorted(path.parent.name for path in ADDON.glob("*/command.py"))
 SCENE = 'run = "{run}"\n[time]\nframes = 1\n' + NO_PLANTS + NO_SMOKE + TINY + DRONE
 REGISTER = "import firetwin; firetwin.register(); firetwin.unregister()"
 IMPORT_ALL = """
-import bpy, importlib, pkgutil, firetwin
+import bpy, importlib, pkgutil, firetwin, firetwin.ui  # panels are imported by it
 bpy.utils.expose_bundled_modules()  # pxr
 for each in pkgutil.walk_packages(firetwin.__path__, "firetwin."):
     if each.name.split(".")[1] in {packages}:
@@ -63,16 +74,72 @@ def test_a_feature_is_not_needed_by_the_others(python_without, package):
 
 
 @pytest.mark.parametrize("package", PACKAGES)
-def test_the_command_of_a_missing_feature_explains_it_in_one_line(python_without, package):
-    python = python_without([package])
-    command = next(name for name, its in optional_features.COMMANDS.items() if its == package)
+def test_a_missing_feature_has_no_command(python_without, package):
+    python, command = python_without([package]), COMMANDS[package]
     ended = python("-m", "firetwin", command, "scene.toml", status=2)
-    assert ended.stderr == (
-        f"firetwin: the command {command} needs firetwin/{package}, which is missing; reinstall Firetwin\n"
-    )
+    assert f"invalid choice: '{command}'" in ended.stderr
     listed = python("-m", "firetwin", "--help").stdout.splitlines()
     assert not any(line.startswith(f"    {command} ") for line in listed)
     assert any(line.startswith("    render ") for line in listed)
+
+
+FEATURE = {
+    "__init__.py": "",
+    "command.py": """
+from ..command import MACHINE, Command
+
+COMMAND = Command("greet", "print a greeting", "", MACHINE, run=lambda arguments: print("hello"))
+""",
+    "panel.py": """
+import bpy
+from ..ui.menu_entries import Entry
+from ..ui.sidebar import SidebarPanel
+
+class FIRETWIN_OT_greet(bpy.types.Operator):
+    bl_idname, bl_label = "firetwin.greet", "Greet"
+
+class FIRETWIN_PT_greeting(SidebarPanel, bpy.types.Panel):
+    bl_label = "Greeting"
+
+    def draw(self, context):
+        pass
+
+class properties:
+    __annotations__ = {"greeting": bpy.props.StringProperty()}
+
+def unregister():
+    pass
+
+classes = (FIRETWIN_OT_greet, FIRETWIN_PT_greeting)
+menu = {"Help": (Entry("greet"),)}
+""",
+}
+REGISTERED = """
+import bpy, firetwin, os, traceback
+from firetwin.ui.menus import MENUS
+try:
+    firetwin.register()
+    assert hasattr(bpy.types, "FIRETWIN_PT_greeting")
+    assert "greeting" in bpy.context.scene.firetwin.bl_rna.properties
+    assert any(getattr(line, "operator", "") == "greet" for line in MENUS["Help"])
+    firetwin.unregister()
+    assert not hasattr(bpy.types, "FIRETWIN_PT_greeting")
+except BaseException:
+    traceback.print_exc()
+    os._exit(1)
+os._exit(0)  # Python's own end can hang with `bpy` loaded
+"""
+
+
+def test_a_feature_is_added_by_its_folder_alone(python_without):
+    python = python_without([])
+    folder = Path(python("-c", "import firetwin; print(firetwin.__path__[0])").stdout.strip()) / "greeting"
+    folder.mkdir()
+    for name, text in FEATURE.items():
+        (folder / name).write_text(text)
+    assert python("-m", "firetwin", "greet").stdout == "hello\n"
+    assert "    greet     print a greeting" in python("-m", "firetwin", "--help").stdout
+    python("-c", REGISTERED)
 
 
 def test_a_scene_is_built_and_rendered_without_optional_features(python_without, run_folder, tmp_path):

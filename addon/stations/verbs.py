@@ -1,4 +1,4 @@
-"""The commands `firetwin stations` and `firetwin resources`."""
+"""Verbs of `firetwin stations`, and the query of `firetwin resources`."""
 
 from __future__ import annotations
 

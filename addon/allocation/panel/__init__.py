@@ -13,20 +13,22 @@ from typing import Any
 
 import bpy
 
-from ..allocation import job as allocation_job
-from ..allocation import read
-from ..allocation.problem import Request
-from ..blender import owned
-from ..jobs.worker import Stop
-from ..run import times
-from ..scene.stations import control_line
-from ..shot.shot import Shot
-from ..shot.source import ShotSource
-from . import allocation_text, choice, job, run, working
-from .job import InThread, Message, Steps
-from .sidebar import SidebarPanel
-from .text import draw_paragraph
-from .working import Working
+from ...blender import owned
+from ...jobs.worker import Stop
+from ...run import times
+from ...scene.stations import control_line
+from ...shot.shot import Shot
+from ...shot.source import ShotSource
+from ...ui import choice, job, run, working
+from ...ui.job import InThread, Message, Steps
+from ...ui.menu_entries import Entry
+from ...ui.sidebar import SidebarPanel
+from ...ui.text import draw_paragraph
+from ...ui.working import Working
+from .. import job as allocation_job
+from .. import read
+from ..problem import Request
+from . import text
 
 _FRAME = "frame"
 _LABEL = "firetwin_allocation"
@@ -161,7 +163,7 @@ def _draw_result(
     context: bpy.types.Context, layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup
 ) -> None:
     """Draw the stored result: a foldable block for each division, and for the resources left out."""
-    shown = allocation_text.describe(panel.allocation)
+    shown = text.describe(panel.allocation)
     layout.label(text=shown.label, icon="EXPERIMENTAL")
     column = layout.column(align=True)
     if shown.files != (panel.run, panel.stations.file):
@@ -183,4 +185,7 @@ properties = AllocationProperties
 
 def unregister() -> None:
     """Clear the cached text."""
-    allocation_text.describe.cache_clear()
+    text.describe.cache_clear()
+
+
+menu = {"Scene": (Entry("allocate", icon="COMMUNITY"),)}

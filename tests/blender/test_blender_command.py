@@ -4,7 +4,7 @@ import json
 
 import bpy
 import pytest
-from firetwin.ui import command
+from firetwin.ui import blender_command
 
 
 @pytest.fixture
@@ -18,9 +18,9 @@ def call(monkeypatch):
         return register(name, function)
 
     monkeypatch.setattr(bpy.utils, "register_cli_command", remember)
-    command.register()
+    blender_command.register()
     yield registered["firetwin"]
-    command.unregister()
+    blender_command.unregister()
 
 
 def test_it_does_what_the_command_line_does(call, run_folder, capsys):
@@ -45,6 +45,6 @@ def test_mistakes_end_in_an_exit_status_and_never_in_an_exception(call, argument
 
 
 def test_it_can_be_registered_again_after_it_was_taken_back(call):
-    command.unregister()
-    command.register()
-    assert len(command._handles) == 1
+    blender_command.unregister()
+    blender_command.register()
+    assert len(blender_command._handles) == 1

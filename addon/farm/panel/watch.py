@@ -7,9 +7,9 @@ from pathlib import Path
 
 import bpy
 
-from ..farm import status
-from ..farm.status import Status
-from . import job, working
+from ...ui import job, working
+from .. import status
+from ..status import Status
 
 _PERIOD = 10.0  # s between readings
 _SHORT = 0.5  # s between checks of the thread

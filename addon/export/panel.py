@@ -8,13 +8,14 @@ from pathlib import Path
 import bpy
 
 from ..errors import Error
-from ..export import formats
-from ..export import job as export_job
 from ..progress import count
-from . import choice, job, render, run, scene_file, working
-from .job import InThread, Steps
-from .sidebar import SidebarPanel
-from .working import Working
+from ..ui import choice, job, render, run, scene_file, working
+from ..ui.job import InThread, Steps
+from ..ui.menu_entries import Entry
+from ..ui.sidebar import SidebarPanel
+from ..ui.working import Working
+from . import formats
+from . import job as export_job
 
 _ITEMS = tuple((name, each.title, each.help) for name, each in formats.known().items())
 
@@ -103,3 +104,4 @@ def unregister() -> None:
 
 classes = (FIRETWIN_OT_export_to, FIRETWIN_PT_export)
 properties = ExportProperties
+menu = {"Render": (Entry("export_to", icon="EXPORT"),)}

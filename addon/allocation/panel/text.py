@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from datetime import datetime, timedelta
 from typing import Any, NamedTuple
 
-from ..run import times
+from ...run import times
 
 _MOST = 40
 """Maximum number of resources listed in a block, so that a panel stays quick."""

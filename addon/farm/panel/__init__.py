@@ -11,18 +11,20 @@ from typing import Any
 
 import bpy
 
-from ..errors import Error
-from ..farm import engines, plan, status, submission
-from ..farm.status import Status
-from ..farm.submission import Submission
-from ..jobs.worker import Stop, StoppedError
-from ..progress import MessageCallback, Progress, count
-from ..shot.source import ShotSource
-from . import camera_edits, farm_watch, job, keys, run, scene_file, working
-from .job import InThread, Message, Steps
-from .sidebar import SidebarPanel
-from .text import draw_paragraph, labelled_row
-from .working import Working
+from ...errors import Error
+from ...jobs.worker import Stop, StoppedError
+from ...progress import MessageCallback, Progress, count
+from ...shot.source import ShotSource
+from ...ui import camera_edits, job, keys, run, scene_file, working
+from ...ui.job import InThread, Message, Steps
+from ...ui.menu_entries import Entry
+from ...ui.sidebar import SidebarPanel
+from ...ui.text import draw_paragraph, labelled_row
+from ...ui.working import Working
+from .. import engines, plan, status, submission
+from ..status import Status
+from ..submission import Submission
+from . import watch
 
 NOT_SAVED = "Save the .blend file first; the scene file of the job is written next to it"
 NO_OUTPUT = "Choose an output folder for the farm first"
@@ -145,8 +147,8 @@ def _write_files(context: bpy.types.Context) -> Generator[InThread | Message, An
 def _submit(command: list[str], out: Path, last: str) -> Steps:
     """Run a scheduler's command, then read the status of the job."""
     yield InThread("submitting", functools.partial(submission.run_command, command, out))
-    yield InThread("reading the status", lambda **_: farm_watch.read_status(out))
-    farm_watch.start_watch(out)
+    yield InThread("reading the status", lambda **_: watch.read_status(out))
+    watch.start_watch(out)
     return last
 
 
@@ -229,9 +231,9 @@ class FIRETWIN_OT_farm_status(_JobOperator, bpy.types.Operator):
         """Read the files in a thread; the panel reads them again while tasks are unfinished."""
         out = _output_folder(context.scene.firetwin)
         _check_job(out)
-        found = yield InThread("reading the status", lambda **_: farm_watch.read_status(out))
-        if farm_watch.is_unfinished(found):
-            farm_watch.start_watch(out)
+        found = yield InThread("reading the status", lambda **_: watch.read_status(out))
+        if watch.is_unfinished(found):
+            watch.start_watch(out)
         return "; ".join(text for _, text in status.rows(found))
 
 
@@ -298,7 +300,7 @@ class FIRETWIN_PT_farm(SidebarPanel, bpy.types.Panel):
         for operator in _WORKS:
             working.draw_messages(context, layout, operator)
         if panel.farm_output and scene_file.resolve_path(panel.farm_output):
-            _draw_status(context, layout, farm_watch.last_status(_output_folder(panel)))
+            _draw_status(context, layout, watch.last_status(_output_folder(panel)))
 
 
 def _draw_status(context: bpy.types.Context, layout: bpy.types.UILayout, found: Status | str | None) -> None:
@@ -329,4 +331,15 @@ properties = FarmProperties
 
 def unregister() -> None:
     """Stop watching the job."""
-    farm_watch.stop_watch()
+    watch.stop_watch()
+
+
+menu = {
+    "Render": (
+        Entry("farm_write", icon="FILE_TICK"),
+        Entry("farm_submit", icon="EXPORT"),
+        Entry("farm_status", icon="FILE_REFRESH"),
+        Entry("farm_resume", icon="PLAY"),
+        Entry("farm_cancel", icon="CANCEL"),
+    )
+}

@@ -1,0 +1,85 @@
+"""Command: the declaration of a command of the command line, and arguments that several commands have.
+
+A module ``command.py`` of a feature's folder, and each module of ``commands``, has one as `COMMAND`. They are
+all imported for the help, and therefore import no heavy module themselves.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from . import argument_types as types
+
+RUNS, SCENES, FILMS, MACHINE = range(4)
+"""Subjects of commands: the help lists them in this order, and the commands of a subject by name."""
+
+
+def _none(parser: argparse.ArgumentParser) -> None:
+    """Add no argument."""
+
+
+def _as_given(words: list[str]) -> tuple[list[str], list[str]]:
+    return words, []
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command.
+
+    Attributes
+    ----------
+    name, summary
+        Word of the command line, and one line of help.
+    detail
+        Further help, or a function that returns it.
+    subject
+        `RUNS`, `SCENES`, `FILMS` or `MACHINE`.
+    run
+        Runs the parsed command line; returns the exit status, None for 0.
+    add
+        Adds the arguments to a parser.
+    prepare
+        Completes the words after the command before they are parsed, and splits off `arguments.options`.
+    former
+        Former names, which work with a note.
+    """
+
+    name: str
+    summary: str
+    detail: str | Callable[[], str]
+    subject: int
+    run: Callable[[argparse.Namespace], int | None]
+    add: Callable[[argparse.ArgumentParser], None] = _none
+    prepare: Callable[[list[str]], tuple[list[str], list[str]]] = _as_given
+    former: tuple[str, ...] = ()
+
+
+def add_verb(verbs: argparse._SubParsersAction, name: str, summary: str) -> argparse.ArgumentParser:
+    """Add a verb of a command; returns the parser of its arguments."""
+    parser = verbs.add_parser(name, help=summary, description=f"{summary[0].upper()}{summary[1:]}.")
+    parser.add_argument("--debug", action="store_true", help="show a traceback when something fails")
+    return parser
+
+
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    """Add a scene file or a run folder, which `auto_framing.fitted_scene.find_source` reads."""
+    help = "scene file, or run folder: settings are fitted to the run"
+    parser.add_argument("scene", metavar="SCENE|RUN", type=types.path, help=help)
+
+
+def add_origin(parser: argparse.ArgumentParser) -> None:
+    """Add options for the start time and the place of a model's output."""
+    parser.add_argument(
+        "--start", metavar="TIME", default="", help="start time of the run, if the files do not give it"
+    )
+    parser.add_argument(
+        "--at", metavar="LAT,LON", default="", help="centre of a grid without geographic coordinates"
+    )
+    parser.add_argument(
+        "--projection",
+        metavar="CRS",
+        default="",
+        help="coordinate reference system of grids in metres, such as EPSG:5070",
+    )

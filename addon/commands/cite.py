@@ -1,0 +1,102 @@
+"""`firetwin cite`: the sources to cite, and archives of films."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .. import argument_types as types
+from ..command import RUNS, Command
+from ..progress import Reporter, result
+from ._scene_runs import list_runs
+
+if TYPE_CHECKING:
+    from ..shot.shot import Shot
+
+
+_DETAIL = """\
+Lists software, algorithms, fire model, facts about the fire, and files of observations. For a scene file, it
+also lists the credits of terrain, imagery and tiles, which their licences require. --crate writes
+DIR/ro-crate-metadata.json: it describes the files of a film, its run, software and sources for an archive."""
+
+
+def _add(parser: argparse.ArgumentParser) -> None:
+    """Define the arguments."""
+    parser.add_argument("run", metavar="RUN", type=types.path, help="run or ensemble folder, or a scene file")
+    parser.add_argument("--json", action="store_true", help="write JSON")
+    parser.add_argument(
+        "--crate",
+        metavar="DIR",
+        type=types.path,
+        help="write an RO-Crate of the film in DIR, a folder of render",
+    )
+    parser.add_argument(
+        "--license", metavar="URL", default="", dest="licence", help="licence of the film, for --crate"
+    )
+
+
+def _run(arguments: argparse.Namespace) -> None:
+    """List the sources that a work with a run, an ensemble or a film has to cite."""
+    from ..errors import UsageError
+    from ..run import citations, readers
+    from ..run.ensemble import ensemble
+    from ..shot.source import ShotSource
+
+    if arguments.licence and not arguments.crate:
+        raise UsageError("--license: is of --crate; name the folder of the film")
+    if ensemble.sniff(arguments.run):
+        rows = citations.of_ensemble(ensemble.open(arguments.run))
+    elif arguments.run.suffix == ".toml" and arguments.run.is_file():
+        shot = ShotSource(scene=str(arguments.run)).shot()
+        rows = _sources(shot)
+        if arguments.crate:
+            result(_write_crate(shot, rows, arguments.crate, arguments.licence))
+            return
+    else:
+        rows = citations.of_run(readers.open(arguments.run))
+    if arguments.crate:
+        raise UsageError(f"--crate: {arguments.run} is not a scene file; name the scene file of the film")
+    if arguments.json:
+        json.dump(rows, sys.stdout, indent=1)
+        print()
+    else:
+        result(citations.page(rows))
+
+
+def _sources(shot: Shot) -> list[dict[str, str]]:
+    """List the sources of a film, each once: of its runs, its forecast, and its pictures."""
+    from ..run import citations
+    from ..shot import forecast, picture_credits
+
+    rows = [row for run in list_runs(shot).values() for row in citations.of_run(run)]
+    if shot.settings.forecast.ensemble:
+        rows += citations.of_ensemble(forecast.of(shot.settings))
+    credits = picture_credits.of_shot(shot)
+    rows += [{"kind": "pictures", "text": text} for text in (*credits.data, *credits.logo)]
+    return list({row["text"]: row for row in rows}.values())
+
+
+def _write_crate(shot: Shot, rows: list[dict[str, str]], out: Path, licence: str) -> Path:
+    """Describe the files of a film for archives."""
+    from ..render import crate, manifest
+    from ..run import content, methods
+    from ..shot import forecast
+
+    terrain, ensemble = shot.settings.terrain, shot.settings.forecast.ensemble
+    report = Reporter("input hashes")
+    runs = {
+        label: (run.name, content.inputs(run, shot.settings.cache, (), report))
+        for label, run in list_runs(shot).items()
+    }
+    inputs = methods.Inputs(
+        elevation=terrain.elevation.name if terrain.elevation else "",
+        forecast=forecast.of(shot.settings).manifest if ensemble else None,
+        rendered=manifest.versions(manifest.read(out)["settings"].values()),
+    )
+    return crate.write(out, runs, methods.paragraph(shot.run, inputs), rows, licence)
+
+
+COMMAND = Command("cite", "list the sources to cite with a run or a film", _DETAIL, RUNS, run=_run, add=_add)

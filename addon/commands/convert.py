@@ -1,0 +1,102 @@
+"""`firetwin convert`: a fire model's output as a run."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from .. import argument_types as types
+from ..command import RUNS, Command, add_origin
+from ..progress import Reporter, result, say
+
+if TYPE_CHECKING:
+    pass
+
+
+_DETAIL = """\
+The format is detected from the content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Model
+(fire_output_*.nc), ForeFire (arrival times, fronts, landscape), ELMFIRE (GeoTIFF), FARSITE and FlamMap
+(ASCII or GeoTIFF, LCP), pyretechnics (.npz), and any CF netCDF with a mapping in a TOML file: [fields]
+heat_flux = "NAME". Fuels can come from an LCP or from LANDFIRE rasters among the files. Values that the
+model does not provide are assumed, printed and written to run.toml. One call converts one run; files of
+several runs, models or places are rejected. Clocks show the time of --zone; without it, the UTC offset of
+--start; without both, the offset by longitude, ignoring daylight saving time and borders. Repeating the
+command resumes a stopped conversion. A conversion that reads and writes nothing for ten minutes is ended,
+as the file is probably damaged. Needs optional packages: pip install 'firetwin[models]'."""
+
+
+def _add(parser: argparse.ArgumentParser) -> None:
+    """Define the arguments."""
+    parser.add_argument(
+        "paths",
+        metavar="IN",
+        nargs="+",
+        type=types.path,
+        help="output files of the model, or folders of them",
+    )
+    parser.add_argument("--out", metavar="RUN", type=types.path, required=True, help="run folder to write")
+    add_origin(parser)
+    parser.add_argument(
+        "--interval",
+        metavar="SECONDS",
+        type=types.count,
+        default=0,
+        help="time step of the fields if the model writes arrival times (fitted)",
+    )
+    parser.add_argument("--name", default="", help="name of the run (name of the folder and model)")
+    parser.add_argument(
+        "--members",
+        action="store_true",
+        help="convert all members of a forecast to an ensemble (a model's output, a folder or list of runs)",
+    )
+    parser.add_argument(
+        "--member", metavar="NAME", default="", help="convert a member of the ensemble IN to a run"
+    )
+    parser.add_argument(
+        "--wind",
+        metavar="GRIB2",
+        nargs="+",
+        type=types.path,
+        default=[],
+        help="forecast of HRRR for the wind at 10 m, if the model writes none: a file per hour",
+    )
+    parser.add_argument(
+        "--horizon",
+        metavar="HOURS",
+        type=types.hours,
+        default=0,
+        help="length of the forecast of --members (of its longest member)",
+    )
+    zone = "time zone of printed times, such as Europe/Paris (offset of --start, otherwise by longitude)"
+    parser.add_argument("--zone", default="", help=zone)
+
+
+def _run(arguments: argparse.Namespace) -> None:
+    """Convert a fire model's own files to a run."""
+    from ..errors import UsageError
+    from ..jobs import convert
+
+    if arguments.members and arguments.wind:
+        raise UsageError("--wind: members have arrival times alone; give it with --member")
+    if arguments.members:
+        options = arguments.start, arguments.at, arguments.projection, arguments.horizon * 3600.0
+        result(
+            convert.run_members(
+                arguments.paths, arguments.out, *options, tell=say, name=arguments.name, zone=arguments.zone
+            )
+        )
+        return
+    reporter = Reporter("times")
+    try:
+        result(
+            convert.run(
+                arguments.paths, arguments.out, arguments.start, arguments.at, arguments.projection,
+                arguments.interval, reporter, say, name=arguments.name, zone=arguments.zone,
+                member=arguments.member, wind=arguments.wind,
+            )
+        )  # fmt: skip
+    finally:
+        reporter.close()
+
+
+COMMAND = Command("convert", "convert a fire model's output to a run", _DETAIL, RUNS, run=_run, add=_add)

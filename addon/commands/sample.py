@@ -1,0 +1,65 @@
+"""`firetwin sample`: the synthetic sample run."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from .. import argument_types as types
+from ..command import RUNS, Command
+from ..progress import Reporter, result, say
+
+if TYPE_CHECKING:
+    pass
+
+
+_DETAIL = """\
+No output of a fire-atmosphere model for the King Fire is public. This run is synthetic: terrain, fuels and
+spread follow publications about the fire. All its output is labelled as synthetic."""
+
+
+def _add(parser: argparse.ArgumentParser) -> None:
+    """Define the arguments."""
+    parser.add_argument("out", metavar="OUT", type=types.path, help="output folder; created if missing")
+    parser.add_argument(
+        "--frames", metavar="N", type=types.count, help="number of model times, evenly spread (all)"
+    )
+    parser.add_argument(
+        "--format", choices=("npy", "text"), default="npy", help="format of field files (npy)"
+    )
+    parser.add_argument(
+        "--pace",
+        metavar="FACTOR",
+        type=types.factor,
+        default=1.0,
+        help="factor of the rate of spread, for a what-if run (1)",
+    )
+    parser.add_argument(
+        "--members", metavar="N", type=types.count, help="write a synthetic ensemble of N members instead"
+    )
+    parser.add_argument(
+        "--member", metavar="I", type=types.count, default=0, help="write the run of member I of it (0)"
+    )
+
+
+def _run(arguments: argparse.Namespace) -> None:
+    """Write the sample run."""
+    from ..data import sample
+    from ..errors import UsageError
+
+    if arguments.members is not None:
+        from ..run.ensemble import synthetic
+
+        if arguments.member or arguments.pace != 1.0 or arguments.frames is not None:
+            raise UsageError("--members: has arrival times alone; leave out --member, --pace and --frames")
+        synthetic.write(arguments.out, arguments.members, Reporter("members"))
+        result(arguments.out)
+        return
+    say(f"writing the synthetic King-like run to {arguments.out}")
+    report = Reporter("model times")
+    options = arguments.frames, arguments.format, report, arguments.pace, arguments.member
+    sample.write(arguments.out, *options)
+    result(arguments.out)
+
+
+COMMAND = Command("sample", "write the synthetic King-like sample run", _DETAIL, RUNS, run=_run, add=_add)

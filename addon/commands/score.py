@@ -1,0 +1,110 @@
+"""`firetwin score`: a run against observations of its fire."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .. import argument_types as types
+from ..command import RUNS, Command
+from ..progress import result, say
+from ._scene_runs import open_runs
+
+if TYPE_CHECKING:
+    pass
+
+
+_DETAIL = """\
+FILE holds dated perimeters (.geojson, .shp, .kml, .kmz, .gpkg) or FIRMS detections of VIIRS and MODIS
+(.csv). Append the date to a file without dates: FILE@2014-09-18T04:00-07:00. Scores by date: areas, Sorensen,
+Jaccard, kappa, precision, recall, shape deviation and area difference indices, and distances of the
+perimeters, with and without the area burned before the start of the run. Further scores: errors of arrival
+times, and detections with their lag. Each score is computed on polygons and on cells; their difference
+estimates the numerical error of the score, not of the fire model. Observations outside the times or the grid
+of the run are counted and ignored. The exit status is 1 if none remains. Needs shapely and pyproj (pip
+install 'firetwin[score]'). For an ensemble: CRPS, Brier score, reliability and FSS."""
+
+
+def _add(parser: argparse.ArgumentParser) -> None:
+    """Define the arguments."""
+    parser.add_argument(
+        "run",
+        metavar="RUN",
+        type=types.path,
+        help="run folder, or a scene file, whose first run is scored against the second",
+    )
+    parser.add_argument(
+        "--against",
+        metavar="FILE|RUN",
+        nargs="+",
+        default=[],
+        help="observed perimeters, detections, or another run (RUN/observations)",
+    )
+    parser.add_argument(
+        "--report",
+        metavar="X.html",
+        type=types.path,
+        help="write an HTML report with maps and curves (none)",
+    )
+    parser.add_argument("--json", action="store_true", help="write JSON")
+
+
+def _run(arguments: argparse.Namespace) -> None:
+    """Compare a run with observations of its fire."""
+    from .. import files
+    from ..errors import Error, UsageError, input_error
+    from ..run import observations, readers, zone
+    from ..run import score as scores
+    from ..run.ensemble import ensemble
+    from ..run.score import page, used
+
+    if ensemble.sniff(arguments.run):
+        _score_members(arguments)
+        return
+    if arguments.run.suffix == ".toml" and arguments.run.is_file():
+        run, *others = open_runs(arguments.run).values()
+        named = arguments.against or [other.path for other in others]
+    else:
+        run = readers.open(arguments.run)
+        named = arguments.against or observations.beside(arguments.run)
+    runs = [readers.open(Path(each)) for each in named if not observations.is_one(each)]
+    if len(runs) > 1:
+        raise UsageError("--against: accepts one other run; remove the others")
+    if arguments.report and arguments.report.suffix.lower() != ".html":
+        raise UsageError(f"--report: {arguments.report} does not end in .html; name an .html file")
+    observed = observations.read(each for each in named if observations.is_one(each))
+    if observed.heat and not (observed.perimeters or observed.detections or runs):
+        raise input_error(named[0], "has detections but no perimeter; name a file with a perimeter")
+    found = scores.score(run, observed, runs[0] if runs else None, zone=zone.time_zone(run))
+    result(json.dumps(found, indent=1) if arguments.json else page.page(found))
+    if arguments.report:
+        from ..run.score import report
+
+        text = report.html(run, found, observed, *runs)
+        files.write_text(arguments.report, text)
+        say(f"wrote {arguments.report}")
+    if not runs and (none := used.nothing(found["uses"])):
+        raise Error(none)
+
+
+def _score_members(arguments: argparse.Namespace) -> None:
+    """Compare an ensemble with observed perimeters."""
+    from ..errors import UsageError
+    from ..run import observations, zone
+    from ..run.ensemble import ensemble
+    from ..run.score import members
+
+    found = ensemble.open(arguments.run)
+    named = arguments.against or observations.beside(arguments.run)
+    if arguments.report:
+        raise UsageError("--report: is of runs alone; use --json for the scores of an ensemble")
+    if not named or not all(observations.is_one(each) for each in named):
+        raise UsageError("--against: name files of observed perimeters")
+    place = float(found.longitude.mean())
+    results = members.score(found, observations.read(named), found.manifest.zone or zone.of_longitude(place))
+    result(json.dumps(results, indent=1) if arguments.json else members.page(results))
+
+
+COMMAND = Command("score", "score a run against observations of its fire", _DETAIL, RUNS, run=_run, add=_add)

@@ -1,0 +1,105 @@
+"""Verbs of `firetwin dataset`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+from ..progress import Reporter, count, result, say
+from ..shot.schema.frame_list import FrameList
+from . import check, draw_labels, finish, formats, members, plan_file, produce, sample_job
+from .draws import count_rejects
+from .plan import SPLITS
+from .produce import Production
+from .splits import Splits
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the requested verb; returns the exit status."""
+    if arguments.verb == "check":
+        return _check(arguments.folder)
+    if arguments.verb == "draw":
+        for path in draw_labels.write(arguments.folder, arguments.only, arguments.out):
+            result(path)
+        return 0
+    names = formats.names(arguments.format)
+    if arguments.verb == "formats":
+        _finish(arguments.folder, names)
+        return 0
+    plan = plan_file.read(arguments.plan)
+    if any(run.ensemble for run in plan.runs):
+        with produce.alone(arguments.out, "members"):
+            members.convert(plan, Reporter("converting"), say)
+    production = produce.prepare(plan, arguments.out, arguments.only, Reporter())
+    if arguments.estimate and arguments.json:
+        result(json.dumps(_facts(production), indent=1))
+        return 0
+    lines = production.estimate().lines() + _describe(production)
+    if arguments.estimate:
+        result("\n".join(lines))
+        return 0
+    for line in lines:
+        say(line)
+    reporter = Reporter(produce.SAMPLES)
+    try:
+        produce.run(production, sample_job.make, reporter, say)
+    finally:
+        reporter.close()
+    if arguments.only:
+        result(arguments.out)
+        return 0
+    _finish(arguments.out, names)
+    return 0
+
+
+def _describe(production: Production) -> list[str]:
+    """Describe the draws of a production: splits, and cameras that were rejected."""
+    draws = production.draws
+    splits: dict[str, int] = {}
+    for each in draws.values():
+        splits[each.split] = splits.get(each.split, 0) + 1
+    by = Splits(production.plan).by
+    parts = ", ".join(f"{name} {splits[name]:,}" for name in SPLITS if name in splits)
+    found = [f"splits by {by}: {parts}"]
+    if by == "camera":
+        found.append("all splits show the same fires, as there are fewer places and runs than splits")
+    if rejects := count_rejects(draws):
+        reasons = ", ".join(f"{reason} {number:,}" for reason, number in rejects.items())
+        found.append(f"{count(sum(rejects.values()), 'camera')} rejected and drawn again: {reasons}")
+    return found
+
+
+def _facts(production: Production) -> dict[str, Any]:
+    """Collect the estimate for other programs; samples of one scene are made together."""
+    found = production.estimate()
+    scenes = [FrameList.of(each.index for each in visit.draws) for visit in production.visits]
+    return {
+        "count": production.plan.count,
+        "missing": found.samples,
+        "seconds": round(found.seconds),
+        "bytes": round(found.bytes),
+        "scenes": scenes,
+        "rejects": count_rejects(production.draws),
+        "splits": {index: each.split for index, each in production.draws.items()},
+    }
+
+
+def _check(folder: Path) -> int:
+    """Print the findings of a data set; returns 1 if it has faults."""
+    reporter, faults = Reporter("checking samples"), 0
+    for finding in check.check(folder, reporter):
+        result(f"{'' if finding.is_fault else 'note: '}{finding.text}")
+        faults += finding.is_fault
+    reporter.close()
+    say("no faults" if not faults else count(faults, "fault"))
+    return 1 if faults else 0
+
+
+def _finish(out: Path, names: tuple[str, ...]) -> None:
+    """Write formats, card, report and hashes of a data set; one process at a time."""
+    with produce.alone(out, "finish"):
+        produce.remove_parts(out)
+        for path in finish.write(out, names, say):
+            result(path)
