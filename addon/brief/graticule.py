@@ -37,12 +37,12 @@ def interval(frame: MapFrame, grid: Grid) -> str:
 
 def squares(frame: MapFrame) -> list[str]:
     """Name the 100 km squares of the US National Grid that the frame shows."""
-    found = []
-    for north in _steps(frame.south, frame.north, 100_000.0):
-        for east in _steps(frame.west, frame.east, 100_000.0):
-            latitude, _ = frame.zone.inverse(east, north)
-            found.append(frame.zone.square(float(latitude), east, north))
-    return sorted(set(found))
+    found = {
+        frame.zone.square(east, north)
+        for north in _steps(frame.south, frame.north, 100_000.0)
+        for east in _steps(frame.west, frame.east, 100_000.0)
+    }
+    return sorted(found - {""})
 
 
 def _steps(low: float, high: float, step: float) -> list[float]:

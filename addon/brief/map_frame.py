@@ -8,7 +8,7 @@ import numpy as np
 from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
-from ..utm import Zone
+from ..geometry.utm import Zone
 from .mercator import Box
 
 Array = NDArray[np.float64]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from .. import files
-from ..utm import Zone
+from ..geometry.utm import Zone
 from . import gis_geopackage, gis_project, gis_rasters, gis_styles, gis_tables
 from .gis_geopackage import Table
 from .gis_project import ProjectLayer

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 
-from ..utm import Zone
+from ..geometry.utm import Zone
 from . import gis_styles
 from .texts import iso
 

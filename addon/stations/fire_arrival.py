@@ -14,6 +14,7 @@ from firetwin_core.run import Run
 from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
+from ..ellipsoid import ecef
 from ..run import front, times, zone
 from ..run.arrival_grid import ArrivalGrid, fill_unburned
 from ..run.front import Reach
@@ -26,6 +27,7 @@ STATES = ("outside of the run", "not reached", "burned before the run", "reached
 """States of a point; "not reached" holds until the end of the run."""
 
 ARRIVAL_FIELD = "fuel_arrival_time"
+_SIMILAR = 1.005  # ratio of chords within which the shorter geodesic can have the longer chord
 
 
 @dataclass(frozen=True)
@@ -123,11 +125,20 @@ def _nearest(
     inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
     row, column = np.nonzero(burned & ~inner)  # the nearest cell is at the edge of the burned area
     y, x = np.asarray(latitude, np.float64), np.asarray(longitude, np.float64)
+    cells, points = _earth_centred(grid.latitude[row], grid.longitude[column]), _earth_centred(y, x)
     for k in np.flatnonzero(wanted):
-        distance = distance_km(grid.latitude[row], grid.longitude[column], (float(y[k]), float(x[k])))
+        chord = np.linalg.norm(cells - points[k], axis=1)
+        some = np.flatnonzero(chord <= chord.min() * _SIMILAR)
+        south, west = grid.latitude[row[some]], grid.longitude[column[some]]
+        distance = distance_km(south, west, (float(y[k]), float(x[k])))
         at = int(np.argmin(distance))
-        far[k], time[k] = distance[at], grid.arrival[row[at], column[at]]
+        far[k], time[k] = distance[at], grid.arrival[row[some[at]], column[some[at]]]
     return far, time
+
+
+def _earth_centred(latitude: Array, longitude: Array) -> Array:
+    """Convert degrees to Earth-centred positions (n, 3) on the ellipsoid, m."""
+    return ecef(np.radians(latitude), np.radians(longitude), np.zeros(len(latitude)))
 
 
 @dataclass(frozen=True)

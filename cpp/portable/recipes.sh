@@ -69,12 +69,14 @@ build_tiff() {
     -Dzstd=OFF -Dlzma=OFF -Dwebp=OFF -Djbig=OFF -Dlerc=OFF
 }
 
-# Only the local frame. Its headers need the version, which GeographicLib's CMake files would write.
+# Only the local frame, UTM with MGRS, and geodesics, with the sources that they refer to. The headers need the version, which GeographicLib's CMake files would write.
 build_geographiclib() {
   printf '#define GEOGRAPHICLIB_%s\n' 'VERSION_STRING "2.7"' 'VERSION_MAJOR 2' 'VERSION_MINOR 7' 'VERSION_PATCH 0' \
     'DATA "/usr/local/share/GeographicLib"' 'HAVE_LONG_DOUBLE 1' 'WORDS_BIGENDIAN 0' 'PRECISION 2' 'SHARED_LIB 0' \
     >include/GeographicLib/Config.h
-  with_sources GeographicLib include src/{Geocentric,LocalCartesian,Math}.cpp
+  with_sources GeographicLib include src/{Geocentric,LocalCartesian,Math,Utility}.cpp \
+    src/{MGRS,UTMUPS,PolarStereographic,TransverseMercator,TransverseMercatorExact,EllipticFunction}.cpp \
+    src/{Geodesic,GeodesicLine,GeodesicExact,GeodesicLineExact,DST}.cpp
   copy_headers include/GeographicLib
 }
 

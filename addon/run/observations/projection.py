@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ...ellipsoid import A
 from ...errors import input_error
-from ...utm import Zone
+from ...geometry.utm import Zone
 
 Array = NDArray[np.float64]
 

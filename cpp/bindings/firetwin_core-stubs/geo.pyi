@@ -1,4 +1,7 @@
-"""Conversion between WGS84 and local east-north-up metres, and ground heights."""
+"""Local east-north-up metres, UTM and geodesics on WGS84, and ground heights.
+
+Arguments of functions of places broadcast; results have their common shape.
+"""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,3 +38,48 @@ class HeightField:
     def __init__(self, x: ArrayLike, y: ArrayLike, height: ArrayLike) -> None: ...
     def at(self, place: ArrayLike) -> NDArray[np.float64]:
         """Interpolate heights (n,) at points (n, 2), m; clamped to the grid, NaN without ground."""
+
+class Utm:
+    """Universal Transverse Mercator on WGS84 in one zone, also beyond its borders (GeographicLib).
+
+    `zone` is 1 to 60; `south` adds 10,000 km to northings. Within 5 nm for 3900 km from the central meridian.
+    """
+
+    def __init__(self, zone: int, south: bool) -> None: ...
+    def forward(
+        self, latitude: ArrayLike, longitude: ArrayLike
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Project degrees to east and north, m, and compute the convergence.
+
+        The convergence is the angle from true north to grid north, degrees clockwise.
+        """
+    def reverse(self, east: ArrayLike, north: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Convert east and north (m) to latitude and longitude, degrees.
+
+        Longitudes are within 180 degrees of the central meridian.
+        """
+    def square(self, east: float, north: float) -> str:
+        """Name the grid zone and 100 km square of a point (m) by MGRS: ``10SFJ``; empty outside of the grid."""
+
+def utm_zone(latitude: float, longitude: float) -> int:
+    """Find the UTM zone of a place (degrees), 1 to 60, with the exceptions for Norway and Svalbard."""
+
+def geodesic_inverse(
+    latitude: ArrayLike, longitude: ArrayLike, to_latitude: ArrayLike, to_longitude: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Compute geodesics between points, in degrees (Karney 2013, J. Geod. 87, 43-55; within 15 nm).
+
+    Returns
+    -------
+    Lengths, m, and azimuths at the first and last points, degrees clockwise from north; 0 for a length of 0.
+    """
+
+def geodesic_direct(
+    latitude: ArrayLike, longitude: ArrayLike, azimuth: ArrayLike, length: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Compute end points of geodesics from points (degrees), azimuths (degrees) and lengths (m).
+
+    Returns
+    -------
+    Latitude, longitude in [-180, 180] and azimuth at the end, degrees.
+    """

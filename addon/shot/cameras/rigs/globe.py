@@ -7,9 +7,9 @@ from pathlib import Path as File
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
+from firetwin_core import geo
 
 from ....ellipsoid import enu_axes
-from ....geodesic import direct, inverse
 from ...schema import Where, key
 from ...schema.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
 from .. import clipping, flight, path, zoom
@@ -126,7 +126,7 @@ class Globe(Lens):
         if invalid := self._end().validate_against(run, frames):
             return invalid[0][2:], invalid[1].replace("stops at", "ends at")
         middle = (run.latitude[0] + run.latitude[-1]) / 2, (run.longitude[0] + run.longitude[-1]) / 2
-        away = inverse(*self._begin(*middle), *middle)[0]
+        away = geo.geodesic_inverse(*self._begin(*middle), *middle)[0]
         if not away < _NEARLY_OPPOSITE:
             reason = "begins nearly opposite to the run on the Earth; begin within 19,000 km of it"
             return ("begin_longitude",), reason
@@ -140,7 +140,7 @@ class Globe(Lens):
         """Flight from above the beginning to the last view, the view of a tour with one stop."""
         frame, part = ground.frame, self.parts(filming.frames.count)
         begin = self._begin(frame.latitude, frame.longitude)
-        back = float(inverse(frame.latitude, frame.longitude, *begin)[1])
+        back = float(geo.geodesic_inverse(frame.latitude, frame.longitude, *begin)[1])
         end = self._end(back).path(camera, filming, ground)
         position, course = self._flown(ground, begin, end, part)
         position = self._lifted(ground, position)
@@ -201,10 +201,10 @@ class Globe(Lens):
         latitude, longitude, last = frame.reverse(end.position)
         floor = frame.reverse(end.target)[2] - self.target_height
         floor = np.minimum(floor, np.minimum(last, self.begin_height) - _LEAST)
-        length, azimuth, _ = inverse(*begin, latitude, longitude)
+        length, azimuth, _ = geo.geodesic_inverse(*begin, latitude, longitude)
         wide = 2.0 * end.half[0]
         share, width = zoom.flight(length, wide * (self.begin_height - floor), wide * (last - floor), part)
-        north, east, course = direct(*begin, azimuth, share * length)
+        north, east, course = geo.geodesic_direct(*begin, azimuth, share * length)
         return frame.forward(north, east, floor + width / wide), course
 
     def _lifted(self, ground: Terrain, position: Array) -> Array:

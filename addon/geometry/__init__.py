@@ -1,0 +1,1 @@
+"""Geometry: positions on the Earth, map projections, grids, polygons and rotations."""
