@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from .. import files as atomic
 from ..errors import UsageError, input_error
+from ..geometry.grids import dilate
 from ..shot.schema.frame_list import FrameList
-from . import components, files, truth
+from . import files, truth
 from .files import Masks
 from .truth import Annotation, Box, Truth
 
@@ -146,7 +147,7 @@ def _tint(picture: Picture, layer: NDArray[np.uint8], colour: tuple[int, int, in
     """Tint the inside of masks (h, w) of several ids, and draw their outlines."""
     inside = layer > 0
     picture[inside] = np.rint(picture[inside] * (1.0 - _FILL) + np.array(colour) * _FILL)
-    outline = inside & components.dilate(~inside, 1)
+    outline = inside & dilate(~inside, 1, False)
     for axis in (0, 1):
         for shift in (-1, 1):
             other = np.roll(layer, shift, axis)

@@ -9,6 +9,7 @@ import numpy as np
 from firetwin_core import sensor, volume
 from numpy.typing import NDArray
 
+from ..geometry.grids import dilate
 from ..render import composite
 from ..render.eye import Eye
 from ..render.finish.masks import classes
@@ -126,7 +127,7 @@ def _densest(clear: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 def _around(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Widen a mask (h, w) by pixels in which the rays between the first ones meet the same flames."""
-    return composite.widen(chosen, 2)
+    return dilate(chosen, 2)
 
 
 class CentreEye(SampleEye):

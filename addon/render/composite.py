@@ -14,6 +14,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.grids import dilate
 from ..shot.cameras.pixel_rays import SKY
 
 Array = NDArray[np.float32]
@@ -77,7 +78,7 @@ class Surfaces:
 
 def taps(surfaces: Surfaces) -> Array:
     """Return sample distances of smoke (h, w, 3), m: near surface, far surface and flames."""
-    near, far = _neighbourhood(surfaces.distance, np.minimum), _neighbourhood(surfaces.distance, np.maximum)
+    near, far = -dilate(-surfaces.distance, 1), dilate(surfaces.distance, 1)
     # Gaps that no central ray meets show the flames too. A farther tap would see flames behind the ground.
     far = np.where(_extended(surfaces), _BEHIND * surfaces.flame_distance, far)
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
@@ -256,7 +257,7 @@ def average_hot(radiance: Array, rays: int, hot: float) -> Array:
     count. Colder pixels are unchanged.
     """
     own = _own_weight(rays)
-    near = widen(radiance > hot, 1)
+    near = dilate(radiance > hot, 1)
     smooth = own * radiance + (1.0 - own) * blur(radiance[..., None])[..., 0]
     return np.where(near, smooth, radiance).astype(np.float32)
 
@@ -309,7 +310,7 @@ def _mean_before(surfaces: Surfaces) -> Array:
 
 def _extended(surfaces: Surfaces) -> NDArray[np.bool_]:
     """Return a mask (h, w) of foliage before flames with gaps that no central ray goes through."""
-    covered = _neighbourhood(surfaces.distance, np.maximum) < surfaces.flame_distance
+    covered = dilate(surfaces.distance, 1) < surfaces.flame_distance
     return covered & (_mean_before(surfaces) < 1.0 - _SOLID)
 
 
@@ -340,25 +341,6 @@ def blur(values: Array) -> Array:
     return 0.25 * rows[:, :-2] + 0.5 * rows[:, 1:-1] + 0.25 * rows[:, 2:]
 
 
-def _neighbourhood(values: NDArray[Scalar], pick: np.ufunc) -> NDArray[Scalar]:
-    """Compute the minimum or maximum of each 3 x 3 neighbourhood."""
-    padded = np.pad(values, 1, mode="edge")
-    rows = pick(pick(padded[:-2], padded[1:-1]), padded[2:])
-    return pick(pick(rows[:, :-2], rows[:, 1:-1]), rows[:, 2:])
-
-
-def greatest_near(values: Array) -> Array:
-    """Return the greatest value of each 3 x 3 neighbourhood (h, w)."""
-    return _neighbourhood(values, np.maximum)
-
-
-def widen(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
-    """Widen a mask (h, w) by a number of pixels."""
-    for _ in range(pixels):
-        mask = _neighbourhood(mask, np.maximum)
-    return mask
-
-
 def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array:
     """Replace edge pixels of a colour (h, w, 3) by the mean of non-edge neighbours at equal depth.
 
@@ -370,7 +352,7 @@ def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array
     if len(rows) == 0:
         return cleaned
     height, width = edge.shape
-    darkest = np.stack([_neighbourhood(colour[..., channel], np.minimum) for channel in range(3)], axis=-1)
+    darkest = np.stack([-dilate(-colour[..., channel], 1) for channel in range(3)], axis=-1)
     total, weight = np.zeros((len(rows), 3), np.float32), np.zeros(len(rows), np.float32)
     here = near[rows, columns]
     for down in range(-_REACH, _REACH + 1):

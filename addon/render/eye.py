@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..blender import nodes
 from ..blender.owned import Stage
+from ..geometry.grids import dilate
 from ..scene import flame_gaps, infrared, temperature
 from ..scene.labels.material import COVER
 from ..scene.smoke import illumination
@@ -170,7 +171,7 @@ class Eye:
         if self.flames and within.any():
             outline = air | {"flames": self.outline}
             alight[within] = self._march_infrared([], within, _PLACES, outline)[:, 1] < 1.0
-            alight = composite.widen(alight, _AROUND)
+            alight = dilate(alight, _AROUND)
         marched = np.zeros((*self.shape, 2), np.float32)
         marched[..., 1] = 1.0
         for chosen, places, met in ((within & ~alight, _MIDDLE, air), (alight, _FINER_PLACES, burning)):

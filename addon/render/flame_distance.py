@@ -6,7 +6,7 @@ import numpy as np
 from firetwin_core import volume
 from numpy.typing import NDArray
 
-from . import composite
+from ..geometry.grids import dilate
 from .rays import Rays
 
 CELL = 2  # pixels along a cell of the result: flames are smoother than foliage
@@ -47,7 +47,7 @@ def measure(
     found = np.where(red[:, -1] > _FAINT * white, distance, 0.0)
     found = found.reshape(rays.directions.shape[:2]).astype(np.float32)
     # Rays of a pixel begin up to a pixel aside of it.
-    return np.where(found > 0.0, found, composite.greatest_near(found))
+    return np.where(found > 0.0, found, dilate(found, 1))
 
 
 def of_pixels(distance: Array, height: int, width: int) -> Array:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
+from ..geometry.grids import dilate
 from ..scene import flame_field, flame_gaps
 from ..scene.fire import build as fire
 from ..scene.fire import flame_volume
@@ -28,7 +29,7 @@ from ..shot import passes
 from ..shot.fire import flame_map
 from ..shot.shot import Shot
 from ..smoke import sources
-from . import composite, exr_tags, flame_distance, frame_cost, layers, motion_blur, rays, surfaces, text_layer
+from . import exr_tags, flame_distance, frame_cost, layers, motion_blur, rays, surfaces, text_layer
 from .eye import Eye
 from .picture import Picture
 
@@ -154,7 +155,7 @@ class IntegratedRenderer:
                     2.0**-self.scene.view_settings.exposure,
                 )
         # Rays at the edge of a cell read its neighbour: without flames there, nothing would be before them.
-        wide = None if distance is None else composite.greatest_near(distance)
+        wide = None if distance is None else dilate(distance, 1)
         flame_gaps.set_distance(self.stage, wide)
         return distance
 

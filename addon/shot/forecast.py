@@ -12,6 +12,7 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..geometry.grids import dilate
 from ..progress import Progress, silent
 from ..run import areas, content, front, times
 from ..run.ensemble import choice, ensemble
@@ -147,16 +148,8 @@ def agreement(found: Ensemble, member: int, run: Run) -> Agreement:
     known = np.isfinite(mine) & ~np.isnan(theirs)
     here, there, area = known & (mine == 1.0), known & (theirs <= end), found.areas
     either = float(area[here | there].sum())
-    apart = (here & ~_widened(there)) | (there & ~_widened(here))
+    apart = (here & ~dilate(there, 1, False)) | (there & ~dilate(here, 1, False))
     return Agreement(1.0 - float(area[apart].sum()) / either if either else 1.0, end)
-
-
-def _widened(burned: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Add the 8 neighbours of each cell (ny, nx)."""
-    rows, columns = burned.shape
-    padded = np.pad(burned, 1)
-    near = [padded[y : y + rows, x : x + columns] for y in range(3) for x in range(3)]
-    return np.logical_or.reduce(near)
 
 
 def _burned(found: Ensemble, run: Run, time: float) -> NDArray[np.float64]:

@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.grids import dilate
 from .domains import Domain
 from .snapshots import Snapshot
 
@@ -32,7 +33,7 @@ Mask = NDArray[np.bool_]
 def displace(snapshot: Snapshot, domain: Domain, seed: int) -> Snapshot:
     """Return a snapshot of a domain with its smoke displaced by eddies."""
     fields, box, size = snapshot.fields, domain.box, domain.scale.cell
-    there = dilate(fields["smoke"] > _VISIBLE, round(_REACH * size / box.spacing))
+    there = dilate(fields["smoke"] > _VISIBLE, round(_REACH * size / box.spacing), beyond=False)
     k, j, i = np.nonzero(there)
     levels = np.array(box.levels)
     middles = 0.5 * (levels[1:] + levels[:-1])
@@ -71,17 +72,6 @@ def waves(place: Array, key: tuple[int, int, int]) -> Array:
         for axis in range(3):
             found[axis] += np.float32(across[axis]) * wave
     return found
-
-
-def dilate(there: Mask, count: int) -> Mask:
-    """Widen a mask (nz, ny, nx) by a number of cells along each axis."""
-    for axis in range(3):
-        total = np.cumsum(np.moveaxis(there, axis, 0), axis=0, dtype=np.int32)
-        padded = np.concatenate([np.zeros_like(total[:1]), total])
-        last = np.minimum(np.arange(len(total)) + count + 1, len(total))
-        first = np.maximum(np.arange(len(total)) - count, 0)
-        there = np.moveaxis(padded[last] > padded[first], 0, axis)
-    return there
 
 
 def _sampled(fields: list[Array], at: tuple[NDArray, NDArray, NDArray]) -> list[Array]:

@@ -8,7 +8,7 @@ import small_plan
 from firetwin.dataset import places, render_samples
 from firetwin.dataset.distributions import Constant, LogUniform
 from firetwin.dataset.draws import Drawer
-from firetwin.render import composite
+from firetwin.geometry.grids import dilate
 from firetwin.shot.passes import masks
 
 LABELS = ("classes", "surface", "instance", "depth", "range", "clear", "smoke_range", "kelvin")
@@ -56,7 +56,7 @@ def test_a_sample_rendered_alone_has_the_same_bytes_as_in_a_batch(rendered):
 def test_the_twin_has_no_smoke_and_the_same_surfaces(rendered):
     _, batch, _ = rendered
     for each in batch.values():
-        free = ~composite.widen(each.clear <= 0.9999, 2)  # highlights spread by a pixel
+        free = ~dilate(each.clear <= 0.9999, 2)  # highlights spread by a pixel
         np.testing.assert_allclose(each.light[free], each.twin_light[free], atol=2e-2 * each.twin_light.max())
     smoky = max(batch.values(), key=lambda each: float(each.alpha.sum()))
     assert (smoky.alpha > 0.2).any()

@@ -5,13 +5,13 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from firetwin.geometry.grids import dilate
 from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
 from firetwin.shot.surface import mesh_tolerance, shadow_casters
-from firetwin.shot.terrain.dilation import dilate
 from firetwin_core import lod
 from firetwin_core import run as runs
 from small_run import FX, FY, NX, NY

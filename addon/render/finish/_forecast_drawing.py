@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.grids import dilate
 from .. import composite
 
 COLOURS = ("#2b3a8f", "#3f6fc0", "#5aa2d8", "#93d0e8", "#e6f7ff")
@@ -92,8 +93,8 @@ def outline(burned: NDArray[np.bool_]) -> Array:
 
 def smooth_ground(planar: Array) -> NDArray[np.bool_]:
     """Find pixels (h, w) away from the edges of hills and trees, where a border is not a front."""
-    nearest = -composite.greatest_near(-planar)
-    return composite.greatest_near(planar) < _JUMP * nearest
+    nearest = -dilate(-planar, 1)
+    return dilate(planar, 1) < _JUMP * nearest
 
 
 def stripes(height: int, width: int) -> NDArray[np.bool_]:

@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.grids import dilate
 from ...imaging.split_screen import Mark
 from ...shot import forecast
 from ...shot.cameras.path import Path
-from .. import composite
 from ._forecast_text import LINE, OUTLIER, Counts
 
 _APART = 0.05  # picture heights between a labelled point and the other fronts, if there is room (by eye)
@@ -88,7 +88,7 @@ def visible(
     x, y = (at[:, 0] + 1.0) * 0.5 * width, (1.0 - at[:, 1]) * 0.5 * height
     seen = (depth > 0.0) & (x >= 0.0) & (x < width) & (y >= 0.0) & (y < height)
     row, column = (np.where(seen, each, 0.0).astype(np.int64) for each in (y, x))
-    seen &= composite.greatest_near(planar)[row, column] >= _HIDDEN * depth
+    seen &= dilate(planar, 1)[row, column] >= _HIDDEN * depth
     seen &= clear[row, column] > _SMOKE
     return np.where(seen[:, None], np.stack([x, y], axis=-1), np.nan)
 

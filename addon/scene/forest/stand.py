@@ -14,9 +14,9 @@ from firetwin_core import forest as core
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
+from ...geometry.grids import dilate
 from ...shot.shot import Shot
 from ...shot.terrain import noise
-from ...shot.terrain.dilation import dilate
 from . import biomes, models, planted_rows, plot, stand_structure, visibility
 from .plot import Plot
 

@@ -11,10 +11,10 @@ import numpy as np
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
+from ...geometry.grids import dilate
 from ...shot.shot import Shot
 from ...shot.surface import land_use
 from ...shot.terrain import noise
-from ...shot.terrain.dilation import dilate
 from ...shot.terrain.terrain import box
 from ...shot.tiles import tile_vegetation
 from . import biomes, cover, field_lines, planted_rows

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.grids import dilate
 from ...run import areas
 from ...shot.shot import Shot
-from ...shot.terrain.dilation import dilate
 from . import visibility
 
 _RELIEF = 30.0  # m; greatest vertical offset of a tree by the terrain mesh's relief

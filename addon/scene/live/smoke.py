@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
+from ...geometry.grids import dilate
 from ...imaging import srgb
 from ...progress import MessageCallback, Progress
 from ...shot.shot import Shot
@@ -149,7 +150,9 @@ def _sheet(
 ) -> bpy.types.Mesh | None:
     """Create quads where a sheet is ever visible; None if nowhere. `sheet` is their place in the picture."""
     rows, columns = opacity.shape
-    blocks = _spread(opacity).reshape(rows // _PATCH, _PATCH, columns // _PATCH, _PATCH).max(axis=(1, 3))
+    blocks = (
+        dilate(opacity, 1, 0.0).reshape(rows // _PATCH, _PATCH, columns // _PATCH, _PATCH).max(axis=(1, 3))
+    )
     j, i = np.nonzero(blocks > _FAINT)
     if not len(j):
         return None
@@ -166,13 +169,6 @@ def _sheet(
     sheet[:, 0], sheet[:, 1] = kept[:, 1] / columns, (slab + kept[:, 0] / rows) / slabs
     add_attribute(data, "sheet", "FLOAT_VECTOR", sheet)
     return data
-
-
-def _spread(opacity: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the maximum of each cell and its neighbours: a picture fades beyond the sides of its cells."""
-    rows, columns = opacity.shape
-    padded = np.pad(opacity, 1)
-    return np.max([padded[j : j + rows, i : i + columns] for j in range(3) for i in range(3)], axis=0)
 
 
 def _centre(obj: bpy.types.Object) -> None:

@@ -13,8 +13,8 @@ from firetwin_core import constants
 from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
+from ...geometry.grids import dilate
 from ..terrain import noise
-from ..terrain.dilation import dilate
 from ..terrain.terrain import UNKNOWN
 from . import flame_size
 from .flame_depth import FrontFields

@@ -24,6 +24,7 @@ EVERYWHERE = (
     "scene",
     "scene/forest/biomes",
     "blender",
+    "geometry",
     "run",
     "shot",
     "shot/cameras",

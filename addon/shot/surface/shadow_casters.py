@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.grids import dilate
 from ...run import sun
 from ..shot import Shot
-from ..terrain.dilation import dilate
 
 _LOWEST = 1.0  # degrees; lower suns cast no shadows, as in `lod.visible_mask`
 _TURN = 2.0  # degrees; suns closer together are merged, as blocks are dilated on all sides

@@ -11,11 +11,11 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
 from ...ellipsoid import MEAN_RADIUS
+from ...geometry.grids import dilate
 from ...run import areas, burning, fuel_category
 from ...run.frame import local_frame
 from ..sections import SceneSettings
 from . import apron, dem_patch, even_cells, noise
-from .dilation import dilate
 from .elevation import Elevation
 
 NEVER = 1.0e9  # s, arrival time of ground that never burns

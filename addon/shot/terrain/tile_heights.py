@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from ... import files
 from ...errors import input_error
+from ...geometry.grids import dilate
 from ...run.frame import local_frame
 from . import rasterize
-from .dilation import dilate
 
 if TYPE_CHECKING:
     from ...tiles.decoded import Decoded

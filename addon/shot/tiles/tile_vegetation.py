@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.grids import dilate
 from ..shot import Shot, cached_on_shot
-from ..terrain.dilation import dilate
 from . import tile_cut
 
 if TYPE_CHECKING:
