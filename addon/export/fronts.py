@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from datetime import datetime
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..geometry.polygons import area, inside
 from ..run import fronts
 from ..run.fronts import Line
 from ..shot.shot import Shot
@@ -80,31 +80,17 @@ def of_shot(shot: Shot, frames: Sequence[int]) -> list[DatedFront]:
 
 def polygons(lines: list[Line]) -> list[Polygon]:
     """Group closed lines into polygons: each hole (clockwise) belongs to the smallest ring around it."""
-    signed = [_signed_area(line) for line in lines]
-    outer = sorted((k for k, area in enumerate(signed) if area > 0.0), key=lambda k: signed[k])
+    signed = [area(line) for line in lines]
+    outer = sorted((k for k, each in enumerate(signed) if each > 0.0), key=lambda k: signed[k])
     found = {k: [lines[k]] for k in outer}
-    for k, area in enumerate(signed):
-        if area < 0.0:
-            owner = next((j for j in outer if signed[j] >= -area and _is_inside(lines[k], lines[j])), None)
+    for k, each in enumerate(signed):
+        if each < 0.0:
+            owner = next((j for j in outer if signed[j] >= -each and _is_inside(lines[k], lines[j])), None)
             if owner is not None:
                 found[owner].append(lines[k])
     return [found[k] for k in sorted(outer)]
 
 
-def _signed_area(line: Line) -> float:
-    """Compute the area of a closed line in square degrees, positive if it is anticlockwise."""
-    x, y = (line - line[0]).T
-    return 0.5 * float(x[:-1] @ y[1:] - x[1:] @ y[:-1])
-
-
 def _is_inside(inner: Line, ring: Line) -> bool:
-    """Check whether most corners of a line are inside a ring, by the crossings to their east."""
-    x, y = inner[: -1 : -(-len(inner) // _CORNERS)].T
-    (x0, y0), (x1, y1) = ring[:-1].T[:, :, None], ring[1:].T[:, :, None]
-    if x.min() < x0.min() or x.max() > x0.max() or y.min() < y0.min() or y.max() > y0.max():
-        return False
-    spans = (y0 <= y) != (y1 <= y)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        at = x0 + (y - y0) / (y1 - y0) * (x1 - x0)
-    crossings: NDArray[np.int64] = np.sum(spans & (at > x), axis=0)
-    return bool(np.mean(crossings % 2) > 0.5)
+    """Check whether most corners of a line are inside a ring."""
+    return bool(np.mean(inside([ring], inner[: -1 : -(-len(inner) // _CORNERS)])) > 0.5)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..data import history
+from ..geometry.polygons import area
 from . import areas, burned_fraction, thumbnails, times
 from .observations import Observations
 from .observations.infrared_detections import KINDS
@@ -119,8 +120,7 @@ def _outline(axes: Axes, run: Run, polygons: Sequence[Polygons], style: dict) ->
     for polygon in polygons:
         for place, (x, y) in enumerate(ring.T for ring in polygon):
             corners = np.column_stack([areas.turned(x, middle), y])
-            x, y = (corners - corners[0]).T
-            left = np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) > 0  # turns; holes have to the other way
+            left = area(corners) > 0.0  # turns; holes have to the other way
             corners = corners if left == (place == 0) else corners[::-1]
             paths.append(Outline([*corners, corners[0]], closed=True))
     patch = PathPatch(Outline.make_compound_path(*paths), facecolor="none", **style)

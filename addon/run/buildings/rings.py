@@ -1,4 +1,4 @@
-"""Rings of a footprint: orientation, points inside, self-intersections and triangulation."""
+"""Rings of a footprint: orientation, self-intersections, triangulation and points inside."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error
+from ...geometry.polygons import area, inside
 
 Array = NDArray[np.float64]
 Rings = tuple[Array, ...]
@@ -15,30 +16,9 @@ Rings = tuple[Array, ...]
 _AT_ONCE = 1 << 22  # pairs of sides per array
 
 
-def area(ring: Array) -> float:
-    """Compute the area of a ring, positive if anticlockwise (shoelace formula)."""
-    x, y = (ring - ring[0]).T
-    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
-
-
 def directed(rings: Rings) -> Rings:
     """Orient the outer ring anticlockwise and holes clockwise."""
     return tuple(ring if (area(ring) > 0.0) == (k == 0) else ring[::-1] for k, ring in enumerate(rings))
-
-
-def inside(rings: Rings, points: Array) -> NDArray[np.bool_]:
-    """Check which points (n, 2) are within the outer ring and outside all holes (even-odd rule)."""
-    first = np.concatenate(rings)
-    second = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
-    found = np.zeros(len(points), bool)
-    step = max(_AT_ONCE // len(first), 1)
-    for start in range(0, len(points), step):
-        x, y = points[start : start + step, None].transpose(2, 0, 1)
-        above = (first[:, 1] > y) != (second[:, 1] > y)
-        rise = np.where(first[:, 1] == second[:, 1], 1.0, second[:, 1] - first[:, 1])
-        at = first[:, 0] + (y - first[:, 1]) * (second[:, 0] - first[:, 0]) / rise
-        found[start : start + step] = np.sum(above & (x < at), axis=1) % 2 == 1
-    return found
 
 
 def cross(rings: Rings) -> bool:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ...blender import owned
 from ...blender.owned import Stage
+from ...geometry.polygons import area
 from ...run import areas
 from ...run.buildings import Footprint, place_on_ground
 from ...shot.shot import Shot
@@ -57,9 +58,7 @@ def _metres(shot: Shot, outline: Array) -> Array:
     """Convert an outline to scene coordinates (n, 2), m, counter-clockwise."""
     longitude = areas.turned(outline[:, 0], float(np.mean(shot.ground.fields.longitude)))
     ring = shot.ground.point(outline[:, 1], longitude)[:, :2]
-    x, y = ring.T
-    clockwise = np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y) < 0.0
-    return ring[::-1] if clockwise else ring
+    return ring if area(ring) >= 0.0 else ring[::-1]
 
 
 def _gates(made: Blocks, ring: Array, floor: float) -> None:

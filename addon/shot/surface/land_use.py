@@ -15,6 +15,7 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ...errors import input_error
+from ...geometry.polygons import inside
 from ...progress import Progress, silent
 from ...run import content
 from ...run.buildings import height_of, polygons
@@ -143,42 +144,27 @@ def mapped(shot: Shot, place: Array) -> NDArray[np.bool_]:
 
 def planted(shot: Shot, place: Array) -> NDArray[np.bool_]:
     """Test if points (n, 2 or 3) in the scene, m, are in plantations of the map."""
-    inside = np.zeros(len(place), bool)
+    found = np.zeros(len(place), bool)
     known = read_map(shot)
     for each in known.features if known else ():
         if each.kind == "plantation":
             for polygon in each.polygons:
-                inside |= _within(polygon, place)
-    return inside
-
-
-def _within(polygon: Rings, place: Array) -> NDArray[np.bool_]:
-    """Test if points (n, 2 or 3) are in a polygon, by the even-odd rule."""
-    outer = polygon[0]
-    near = np.all((place[:, :2] >= outer.min(axis=0)) & (place[:, :2] <= outer.max(axis=0)), axis=1)
-    x, y = place[near, :2].T
-    odd = np.zeros(len(x), bool)
-    for ring in polygon:
-        for a, b in zip(ring, np.roll(ring, -1, axis=0), strict=True):
-            if a[1] != b[1]:
-                crosses = (a[1] <= y) != (b[1] <= y)
-                odd ^= crosses & (x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-    near[near] = odd
-    return near
+                found |= inside(polygon, place[:, :2])
+    return found
 
 
 def hedges(shot: Shot, place: Array) -> NDArray[np.bool_]:
     """Test if points (n, 2 or 3) in the scene, m, are in hedges of the map."""
-    inside = np.zeros(len(place), bool)
+    found = np.zeros(len(place), bool)
     known = read_map(shot)
     for each in known.features if known else ():
         if each.kind != "hedge":
             continue
         for polygon in each.polygons:
-            inside |= _within(polygon, place)
+            found |= inside(polygon, place[:, :2])
         for line in each.lines:
-            inside |= _beside(line, 0.5 * each.width, place)
-    return inside
+            found |= _beside(line, 0.5 * each.width, place)
+    return found
 
 
 def _beside(line: Array, reach: float, place: Array) -> NDArray[np.bool_]:
