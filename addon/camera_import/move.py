@@ -8,7 +8,7 @@ import numpy as np
 from firetwin_core import geo
 from numpy.typing import NDArray
 
-from ..shot.cameras import rotation as turning
+from ..geometry.quaternion import matrices, quaternions
 from ..shot.cameras import sparse_keys
 from ..shot.cameras.rigs import poses
 
@@ -84,13 +84,13 @@ def fit(move: Move, frames: Array, count: int, frame: geo.LocalFrame) -> poses.P
     values = np.hstack(
         [
             move.position / _PLACE,
-            turning.quaternions(move.rotation) / (0.5 * _ANGLE),  # half-angles
+            quaternions(move.rotation) / (0.5 * _ANGLE),  # half-angles
             np.log(lens)[:, None] / _LENS,
         ]
     )
     values = sparse_keys.through(frames, values, np.arange(1.0, count + 1.0))
     place, lens = values[:, :3] * _PLACE, np.exp(values[:, 7] * _LENS)
-    rotation = turning.matrices(values[:, 3:7])
+    rotation = matrices(values[:, 3:7])
     still = np.ptp(values, axis=0).max() < 1.0
     kept = np.zeros(1, np.int64) if still else sparse_keys.fit(values, 1.0)
     lens = np.round(np.clip(lens[kept], *_LENSES), 6)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..shot.cameras.rotation import quaternions
+from ..geometry.quaternion import quaternions
 
 Matrix = NDArray[np.float64]
 OPENCV_CENTRE = 0.5

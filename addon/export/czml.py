@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..ellipsoid import ecef
+from ..geometry.quaternion import quaternions
 from ..imaging import map_symbols
 from ..shot.georeference import earth_centred
 from . import fronts, places, tracks
@@ -107,13 +108,14 @@ def _camera(number: int, track: Track, request: ExportRequest) -> Packet:
     since = np.array([(each - epoch).total_seconds() for each in track.times])
     position = earth_centred(track.geodetic)
     turned = request.georeference.matrix[:3, :3] @ track.rotation @ _FORWARD
+    quaternion = np.roll(quaternions(turned), -1, axis=1)  # x, y, z, w
     samples = {"epoch": iso(epoch), "interpolationAlgorithm": "LINEAR", "interpolationDegree": 1}
     packet: Packet = {
         "id": f"camera-{number}",
         "name": track.name,
         "availability": f"{iso(epoch)}/{iso(track.times[-1])}",
         "position": samples | {"cartesian": _samples(since, np.round(position, 4))},
-        "orientation": samples | {"unitQuaternion": _samples(since, np.round(quaternions(turned), 9))},
+        "orientation": samples | {"unitQuaternion": _samples(since, np.round(quaternion, 9))},
         "point": {"pixelSize": 8, "color": {"rgba": [255, 255, 255, 255]}},
         "label": _label(track.name),
         "path": {"material": {"solidColor": {"color": {"rgba": [255, 255, 255, 160]}}}, "width": 1.0},
@@ -165,26 +167,3 @@ def _samples(since: Array, values: Array) -> list[float]:
 
 _FORWARD = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]])
 """Axes forward, left and top as columns, in a camera's axes right, up and back."""
-
-
-def quaternions(rotation: Array) -> Array:
-    """Convert rotation matrices (n, 3, 3) to unit quaternions (n, 4) x, y, z, w, without sign changes.
-
-    Shepperd 1978, J. Guidance and Control 1 (3), 223-224: the largest component comes first.
-    """
-    m = rotation
-    trace = np.trace(m, axis1=1, axis2=2)
-    own = np.concatenate([np.diagonal(m, axis1=1, axis2=2), trace[:, None]], axis=1)
-    best, rows = own.argmax(axis=1), np.arange(len(m))
-    square = np.empty((len(m), 4, 4))  # 4 times the products of the components
-    for i in range(3):
-        for j in range(3):
-            square[:, i, j] = m[:, i, j] + m[:, j, i] if i != j else 1.0 + 2.0 * m[:, i, i] - trace
-        j, k = (i + 1) % 3, (i + 2) % 3
-        square[:, i, 3] = square[:, 3, i] = m[:, k, j] - m[:, j, k]
-    square[:, 3, 3] = 1.0 + trace
-    found = square[rows, best]
-    found /= np.linalg.norm(found, axis=1)[:, None]
-    flips = np.cumprod(np.where(np.sum(found[1:] * found[:-1], axis=1) < 0.0, -1.0, 1.0))
-    found[1:] *= flips[:, None]
-    return found

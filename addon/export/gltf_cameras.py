@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..shot.cameras.rotation import quaternions
+from ..geometry.quaternion import quaternions
 from ..tiles.make import glb
 from .gltf_document import TO_Y_UP, Document
 from .scene_content import Array, CameraMove, SceneContent

@@ -13,10 +13,10 @@ from firetwin.blender import compat
 from firetwin.camera_import import alembic, usd
 from firetwin.errors import Error, InputError
 from firetwin.export import alembic as exported
+from firetwin.geometry import quaternion
 from firetwin.jobs import worker
 from firetwin.limits import CAMERA_FRAMES
 from firetwin.progress import silent
-from firetwin.shot.cameras import rotation
 from firetwin.shot.settings import scene_file
 from firetwin.shot.source import ShotSource
 
@@ -66,7 +66,7 @@ def check(made, shift=(0.0, 0.0, 0.0)):
     one, two = made.paths
     assert np.linalg.norm(one.position + shift - two.position, axis=1).max() < 0.01
     turn = np.einsum("nij,nik->njk", one.rotation, two.rotation)
-    assert np.degrees(np.abs(rotation.quaternions(turn)[:, 1:]).max() * 2.0) < 0.01
+    assert np.degrees(np.abs(quaternion.quaternions(turn)[:, 1:]).max() * 2.0) < 0.01
     assert two.halves == pytest.approx(one.halves, rel=2e-4)
     assert two.sensor == pytest.approx(one.sensor, rel=1e-6)
 

@@ -9,7 +9,7 @@ import numpy as np
 from firetwin.dataset import files
 from firetwin.dataset import truth as truths
 from firetwin.dataset.truth import FIRE, SMOKE, Annotation, CameraPose, Truth
-from firetwin.shot.cameras.rotation import matrices
+from firetwin.geometry.quaternion import matrices
 from firetwin.shot.passes import masks
 from PIL import Image
 

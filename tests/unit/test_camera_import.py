@@ -8,6 +8,7 @@ import pytest
 from firetwin import cli
 from firetwin.camera_import import foreign, job, kml, move, placing
 from firetwin.errors import InputError
+from firetwin.geometry import quaternion
 from firetwin.shot.cameras import rotation
 from firetwin.shot.source import ShotSource
 from hypothesis import given
@@ -51,7 +52,7 @@ def same(shot, names=("chase", "chase-2")):
     one, two = (next(each for each in shot.paths if each.camera.name == name) for name in names)
     assert np.linalg.norm(one.position - two.position, axis=1).max() < 0.01
     turn = np.einsum("nij,nik->njk", one.rotation, two.rotation)
-    assert np.degrees(np.abs(rotation.quaternions(turn)[:, 1:]).max() * 2.0) < 0.01
+    assert np.degrees(np.abs(quaternion.quaternions(turn)[:, 1:]).max() * 2.0) < 0.01
     assert two.halves[:, 0] == pytest.approx(one.halves[:, 0], rel=2e-4)
 
 
@@ -158,7 +159,7 @@ def test_few_poses_follow_a_move(swing, drift):
     q = np.column_stack([np.ones(count), *(0.3 * s * np.sin(2.0 * t + s) for s in swing)])
     q /= np.linalg.norm(q, axis=1, keepdims=True)
     flown = move.Move(
-        "a", np.arange(1.0, count + 1), place, rotation.matrices(q), np.full(count, 0.5), rate=24.0
+        "a", np.arange(1.0, count + 1), place, quaternion.matrices(q), np.full(count, 0.5), rate=24.0
     )
     from firetwin_core import geo
 

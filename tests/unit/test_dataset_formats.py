@@ -12,7 +12,7 @@ from firetwin.dataset import files, formats, rle
 from firetwin.dataset.formats import coco, colmap, common, hf, nerfstudio, parquet, tum, voc, webdataset, yolo
 from firetwin.dataset.truth import CATEGORIES, Truth, stem
 from firetwin.errors import InputError, UsageError
-from firetwin.shot.cameras.rotation import matrices
+from firetwin.geometry.quaternion import matrices
 from PIL import Image
 
 POSE = labelled.camera(1)

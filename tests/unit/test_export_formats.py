@@ -124,23 +124,6 @@ def test_a_camera_of_czml_looks_along_its_x_axis(request_of):
     assert angle == pytest.approx(2 * np.degrees(np.arctan(path.half[0])), abs=1e-4)
 
 
-def test_quaternions_of_all_directions_give_their_matrices_and_do_not_jump():
-    turn = np.radians(np.arange(0, 720, 7))
-    matrices = []
-    for a in turn:
-        ca, sa, cb, sb = np.cos(a), np.sin(a), np.cos(0.7 * a), np.sin(0.7 * a)
-        matrices.append([[ca, -sa * cb, sa * sb], [sa, ca * cb, -ca * sb], [0.0, sb, cb]])
-    x, y, z, w = czml.quaternions(np.array(matrices)).T
-    found = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    np.testing.assert_allclose(np.moveaxis(np.array(found), 2, 0), matrices, atol=1e-12)
-    q = np.stack([x, y, z, w], axis=-1)
-    assert (np.sum(q[1:] * q[:-1], axis=1) > 0.9).all()
-
-
 def test_a_camera_of_kml_is_where_proj_puts_it(request_of):
     """KML's altitude is above sea level: EGM96 is the geoid of the scene, -24.9 m."""
     request = request_of()

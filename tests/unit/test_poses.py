@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from firetwin.geometry import quaternion
 from firetwin.shot.cameras import rotation, sparse_keys
 from firetwin.shot.cameras.rigs import poses
 from firetwin.shot.sections import Forest, TerrainSettings, Time
@@ -22,12 +23,12 @@ number = st.floats(-1.0, 1.0)
 def test_angles_give_the_turn_back_anywhere(q, where):
     if np.linalg.norm(q) < 1e-3:
         return
-    (matrix,) = rotation.matrices(np.array([q]))
+    (matrix,) = quaternion.matrices(np.array([q]))
     place = np.array([*where, 0.05]) * 40_000.0
     again = rotation.turned(FRAME, place, *rotation.angles(FRAME, place, matrix))
     assert np.abs(again - matrix).max() < 1e-8
-    (quaternion,) = rotation.quaternions(matrix[None])
-    assert abs(quaternion @ np.array(q)) == pytest.approx(np.linalg.norm(q), rel=1e-12)
+    (found,) = quaternion.quaternions(matrix[None])
+    assert abs(found @ np.array(q)) == pytest.approx(np.linalg.norm(q), rel=1e-12)
 
 
 def test_angles_mean_what_they_say():
@@ -72,7 +73,7 @@ def test_a_flown_way_comes_back_through_the_file(make_run, tmp_path):
     random = np.random.default_rng(3)
     shot = _shot(runs.open(make_run()), (poses.Pose(),), 5)
     place = random.uniform(-2000.0, 2000.0, (5, 3)) + np.array([0.0, 0.0, 4000.0])
-    matrix = rotation.matrices(random.normal(size=(5, 4)))
+    matrix = quaternion.matrices(random.normal(size=(5, 4)))
     lens = np.array([24.0, 24.0, 50.0, 70.0, 70.0])
     keys = poses.keyed(shot.local_frame, np.linspace(0.0, 1.0, 5), place, matrix, lens)
     settings = replace(shot.settings, cameras=_shot(shot.run, keys, 5).settings.cameras)

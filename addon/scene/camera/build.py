@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from ...blender import compat, owned
 from ...blender.owned import Stage
-from ...shot.cameras import rotation, sparse_keys
+from ...geometry.quaternion import quaternions
+from ...shot.cameras import sparse_keys
 from ...shot.cameras.path import Path, clip
 from ...shot.shot import Shot
 from . import edit_detection, read_edits
@@ -98,8 +99,9 @@ def _set_pose_and_lens(view: Path, shot: Shot, obj: bpy.types.Object) -> None:
         data.type, data.ortho_scale = "ORTHO", 2.0 * view.half[0]
     obj.rotation_mode, obj.scale = "QUATERNION", (1.0, 1.0, 1.0)
     _animate(obj, "location", view.position, moved)
-    quaternions = rotation.quaternions(view.rotation)
-    _animate(obj, "rotation_quaternion", quaternions, 0.5 * turned)  # unit quaternions hold half the angle
+    _animate(
+        obj, "rotation_quaternion", quaternions(view.rotation), 0.5 * turned
+    )  # unit quaternions hold half the angle
 
 
 def _animate(block: bpy.types.ID, what: str, values: NDArray[np.float64], tolerance: float) -> None:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...blender import compat, owned
 from ...blender.owned import Stage
 from ...errors import Error
-from ...shot.cameras import rotation as turning
+from ...geometry.quaternion import matrices, quaternions
 from ...shot.cameras import sparse_keys
 from ...shot.cameras.rigs import _lens, poses
 from ...shot.settings import Camera
@@ -99,7 +99,7 @@ def evaluate_path(
     place, quaternion = _step_frames(scene, obj, frames) if has_rig(obj) else _evaluate_curves(obj, frames)
     (lens,) = _evaluate_property(obj.data, "lens", frames).T
     return EvaluatedPath(
-        place, turning.matrices(quaternion), lens, _sensor_width(obj.data, size), _keyframes(obj, frames)
+        place, matrices(quaternion), lens, _sensor_width(obj.data, size), _keyframes(obj, frames)
     )
 
 
@@ -141,7 +141,7 @@ def _step_frames(
     finally:
         scene.frame_set(before[0], subframe=before[1])
     place, turn = (np.array(column) for column in zip(*found, strict=True))
-    return place, turning.quaternions(turn)
+    return place, quaternions(turn)
 
 
 def _keyframes(obj: bpy.types.Object, frames: int) -> tuple[int, ...]:
@@ -175,7 +175,7 @@ def fit_poses(path: EvaluatedPath, frame: geo.LocalFrame, width: int, near: floa
         [
             path.place / max(_PIXEL * pixel * near, _LEAST),
             # half-angles: unit quaternions
-            turning.quaternions(path.rotation) / (0.5 * _PIXEL * pixel),
+            quaternions(path.rotation) / (0.5 * _PIXEL * pixel),
             np.log(path.lens)[:, None] / (_PIXEL * 2.0 / width),
         ]
     )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....geometry.quaternion import matrices, quaternions
 from ...schema import Where, key
 from ...schema.bounds import AIM, ANGLE
 from .. import path, sparse_keys
@@ -75,14 +76,14 @@ class Poses(Lens):
         matrix = np.array([_matrix(frame, at, pose) for at, pose in zip(place, keys, strict=True)])
         lens = np.log([[pose.lens or self.focal_length] for pose in keys])
         at = np.array([pose.at for pose in keys], np.float64)
-        values = np.hstack([place, turning.quaternions(matrix), lens])
+        values = np.hstack([place, quaternions(matrix), lens])
         moments = np.linspace(0.0, 1.0, filming.frames.count)
         shown = sparse_keys.through(at, values, moments)
         exact = {round(moment, 12): k for k, moment in enumerate(at)}
         for i, moment in enumerate(moments):  # exact values in the frames of keys
             if (k := exact.get(round(float(moment), 12))) is not None:
                 shown[i] = values[k]
-        rotation, wider = turning.matrices(shown[:, 3:7]), np.exp(-shown[:, 7])
+        rotation, wider = matrices(shown[:, 3:7]), np.exp(-shown[:, 7])
         across, high = self.half(camera, filming)
         longest = float(wider.min()) * self.focal_length
         return Path(
