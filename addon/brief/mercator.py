@@ -1,7 +1,6 @@
-"""Web Mercator (EPSG:3857), the projection of the map, and bounding boxes.
+"""Bounding boxes of maps in Web Mercator.
 
-x = R lambda, y = R ln tan(pi/4 + phi/2) with R = 6378137 m (IOGP Guidance Note 7-2, Popular Visualisation
-Pseudo-Mercator). Columns of a picture are equally spaced in longitude, rows in y.
+Columns of a picture are equally spaced in longitude, rows in y.
 """
 
 from __future__ import annotations
@@ -12,25 +11,14 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from ..ellipsoid import A, metres_per_degree
+from ..ellipsoid import metres_per_degree
 from ..errors import input_error
+from ..geometry.mercator import forward, inverse
 from ..run import areas
 
 LIMIT = 85.05  # degrees; Web Mercator ends at 85.0511
 
 Array = NDArray[np.float64]
-
-
-def forward(latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-    """Project degrees to x and y, m."""
-    y = np.arctanh(np.sin(np.radians(np.asarray(latitude, np.float64))))
-    return A * np.radians(np.asarray(longitude, np.float64)), A * y
-
-
-def inverse(x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
-    """Convert x and y (m) to latitude and longitude, degrees."""
-    latitude = np.degrees(np.arcsin(np.tanh(np.asarray(y, np.float64) / A)))
-    return latitude, np.degrees(np.asarray(x, np.float64) / A)
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,11 @@ import pyproj
 import pytest
 import shapely
 import whole_run
-from firetwin.brief import front_geojson, layers, map_panel, mercator
+from firetwin.brief import front_geojson, layers, map_panel
 from firetwin.brief.mercator import Box
+from firetwin.ellipsoid import metres_per_degree
 from firetwin.errors import InputError
+from firetwin.geometry import mercator
 from firetwin.run import fronts
 from firetwin.run.front import reach
 from firetwin_core import run as runs
@@ -129,7 +131,7 @@ def test_fronts_lie_within_half_a_cell_of_the_scores_front(run):
     found, tolerance = fronts.find(run, "UTC")
     assert [front.time for front in found] == sorted(front.time for front in found)
     assert (found[0].time, found[-1].time) == (0.0, 21600.0)
-    north, east = mercator.metres_per_degree(38.9)
+    north, east = metres_per_degree(38.9)
     assert tolerance == pytest.approx(30.0, rel=1e-3)  # half a cell
     burning = [front for front in found if front.lines]
     assert len(burning) > 10

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...ellipsoid import A
 from ...errors import input_error
+from ...geometry import mercator
 from ...geometry.utm import Zone
 
 Array = NDArray[np.float64]
@@ -41,10 +41,9 @@ def to_degrees(path: Path, system: str, points: Array) -> Array:
     if code in _DEGREES or (system.startswith("GEOGCS") and _is_plain(system)):
         return points
     if code in _WEB_MERCATOR:
-        return _from_web_mercator(points)
+        return np.column_stack(mercator.inverse(*points.T)[::-1])
     if zone := _utm_zone(code):
-        latitude, longitude = zone.inverse(*points.T)
-        return np.column_stack([longitude, latitude])
+        return np.column_stack(zone.inverse(*points.T)[::-1])
     if system in UNDEFINED:
         raise input_error(path, "has no reference system; save it in WGS84 (EPSG:4326)")
     try:
@@ -72,11 +71,6 @@ def normalise(system: str) -> str:
         return system
     body, number = match[1].upper(), match[2].upper()
     return f"EPSG:{number}" if body == "ESRI" and f"EPSG:{number}" in _WEB_MERCATOR else f"{body}:{number}"
-
-
-def _from_web_mercator(points: Array) -> Array:
-    """Invert Web Mercator: spherical, with the equatorial radius (IOGP Guidance Note 7-2)."""
-    return np.degrees(np.column_stack([points[:, 0] / A, np.arcsin(np.tanh(points[:, 1] / A))]))
 
 
 def _utm_zone(code: str) -> Zone | None:

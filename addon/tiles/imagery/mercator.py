@@ -1,6 +1,5 @@
-"""Web Mercator and its quadtree of square tiles.
+"""Quadtree of square tiles of Web Mercator.
 
-Formulas: EPSG Guidance Note 7-2, method 1024 (EPSG:3857), for a sphere of radius A.
 Tiles: matrix set WebMercatorQuad of OGC 17-083r4, "Two Dimensional Tile Matrix Set".
 """
 
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...ellipsoid import A, metres_per_degree
+from ...geometry.mercator import forward, inverse
 
 HALF = math.pi * A
 """m, half the side of the map's square: 20,037,508.34 m."""
@@ -24,18 +24,12 @@ DEEPEST = 30  # level: beyond, columns do not fit 32 bits
 Array = NDArray[np.float64]
 
 
-def project(latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-    """Project degrees to metres east and north (EPSG:3857)."""
-    east = A * np.radians(longitude)
-    return east, A * np.arcsinh(np.tan(np.radians(latitude)))
-
-
 def tile_at(latitude: ArrayLike, longitude: ArrayLike, level: int) -> tuple[Array, Array]:
     """Compute fractional columns and rows of places in tiles; rows count from the north.
 
     Longitudes beyond 180 degrees give columns below 0 or from 2^level on.
     """
-    east, north = project(latitude, longitude)
+    east, north = forward(latitude, longitude)
     scale = 2.0**level / (2.0 * HALF)
     return (east + HALF) * scale, (HALF - north) * scale
 
@@ -43,8 +37,7 @@ def tile_at(latitude: ArrayLike, longitude: ArrayLike, level: int) -> tuple[Arra
 def place_of(column: ArrayLike, row: ArrayLike, level: int) -> tuple[Array, Array]:
     """Compute latitude and longitude, degrees: the inverse of `tile_at`."""
     scale = 2.0 * HALF / 2.0**level
-    east, north = np.asarray(column) * scale - HALF, HALF - np.asarray(row) * scale
-    return np.degrees(np.arctan(np.sinh(north / A))), np.degrees(east / A)
+    return inverse(np.asarray(column) * scale - HALF, HALF - np.asarray(row) * scale)
 
 
 def texel(latitude: float, level: int, side: int) -> float:
