@@ -7,7 +7,7 @@ import sqlite3
 import struct
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..stations import schema
+from ..stations.writing import datetime_text
 
 Array = NDArray[np.float64]
 
@@ -94,11 +95,6 @@ def write(path: Path, tables: Sequence[Table], styles: dict[str, str], when: dat
             base.execute("COMMIT")
 
     files.write(path, put)
-
-
-def datetime_text(when: datetime) -> str:
-    """Format a time as in a GeoPackage, to a millisecond: ``2014-09-17T22:42:00.000Z``."""
-    return when.astimezone(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 
 def blob(table: Table, shape: Any) -> bytes:

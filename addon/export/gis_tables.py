@@ -6,8 +6,9 @@ import numpy as np
 
 from ..imaging import map_symbols
 from ..run.observations import Feature
+from ..stations.writing import datetime_text
 from . import fronts, places, tracks
-from .gis_geopackage import Table, datetime_text
+from .gis_geopackage import Table
 from .request import ExportRequest
 from .tracks import Track
 

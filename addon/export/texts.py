@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from datetime import UTC, datetime
+from datetime import datetime
 from xml.sax.saxutils import escape
+
+from ..run import times
 
 _FORBIDDEN = {"\ufffe", "\uffff", *map(chr, range(0xD800, 0xE000)), *map(chr, range(0x20))} - {"\t", "\n"}
 
 
 def iso(when: datetime) -> str:
     """Format a time as ISO 8601 in UTC, with microseconds if there are any."""
-    return when.astimezone(UTC).isoformat().replace("+00:00", "Z")
+    return times.iso(when, "auto")
 
 
 def xml(value: str) -> str:

@@ -19,9 +19,9 @@ def utc(run: Run, time: float) -> datetime:
     return _start(run) + timedelta(seconds=time)
 
 
-def iso(when: datetime) -> str:
-    """Format a time as ISO 8601 in UTC: ``2014-09-17T22:42:00Z``."""
-    return when.strftime("%Y-%m-%dT%H:%M:%SZ")
+def iso(when: datetime, timespec: str = "seconds") -> str:
+    """Format a time as ISO 8601 in UTC: ``2014-09-17T22:42:00Z``; `timespec` as in `datetime.isoformat`."""
+    return when.astimezone(UTC).isoformat(timespec=timespec).replace("+00:00", "Z")
 
 
 def text(when: datetime, zone: str, seconds: bool = False) -> str:

@@ -6,7 +6,7 @@ import contextlib
 import sqlite3
 from collections.abc import Iterable
 from dataclasses import astuple, fields
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from .. import files
 from ..errors import input_error
+from ..run import times
 from . import geometry, schema
 from .records import Resource, Source, Type
 from .station_file import StationFile
@@ -98,8 +99,8 @@ def _rows(base: sqlite3.Connection, station_file: StationFile) -> None:
 
 
 def datetime_text(when: datetime) -> str:
-    """Format a time as in a GeoPackage: ``2014-09-17T22:42:00.000Z``."""
-    return when.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%S.000Z")
+    """Format a time as in a GeoPackage, to a millisecond: ``2014-09-17T22:42:00.000Z``."""
+    return times.iso(when, "milliseconds")
 
 
 def _records(base: sqlite3.Connection, table: str, kind: type, rows: Iterable[Any]) -> None:

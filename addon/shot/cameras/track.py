@@ -188,5 +188,5 @@ def _number(moment: datetime | float | None) -> float:
 
 def _text(moment: datetime | float | None) -> str:
     if isinstance(moment, datetime):
-        return moment.astimezone(UTC).isoformat().replace("+00:00", "Z")
+        return times.iso(moment, "auto")
     return f"{moment:g}"

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import NamedTuple
 from xml.parsers import expat
@@ -16,6 +16,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from ...errors import input_error
+from ...run import times
 from .track_point import Point, moment, number
 
 _GROUND = {"clampToGround", "relativeToGround", "clampToSeaFloor", "relativeToSeaFloor"}
@@ -156,15 +157,13 @@ def gpx_text(
 ) -> str:
     """Write a GPX 1.1 file with one track: (n,) degrees to 0.1 mm, m to 0.1 mm, times to a microsecond."""
     points = "\n".join(
-        f'<trkpt lat="{y:.9f}" lon="{x:.9f}"><ele>{h:.4f}</ele><time>{_utc(moment)}</time></trkpt>'
-        for y, x, h, moment in zip(latitude, longitude, height, moments, strict=True)
+        f'<trkpt lat="{y:.9f}" lon="{x:.9f}"><ele>{h:.4f}</ele><time>{when}</time></trkpt>'
+        for y, x, h, when in zip(
+            latitude, longitude, height, (times.iso(each, "auto") for each in moments), strict=True
+        )
     )
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         '<gpx version="1.1" creator="Firetwin" xmlns="http://www.topografix.com/GPX/1/1">\n'
         f"<trk><name>{escape(name)}</name><trkseg>\n{points}\n</trkseg></trk>\n</gpx>\n"
     )
-
-
-def _utc(moment: datetime) -> str:
-    return moment.astimezone(UTC).isoformat().replace("+00:00", "Z")
