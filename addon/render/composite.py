@@ -9,7 +9,6 @@ distance) of the pixel's few rays, and from its neighbours. Flames have a separa
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +17,6 @@ from ..geometry.grids import dilate
 from ..shot.cameras.pixel_rays import SKY
 
 Array = NDArray[np.float32]
-Scalar = TypeVar("Scalar", bound=np.generic)
 
 _EDGE = 0.02  # smallest difference of transmittance across a silhouette
 _REACH, _SAME_DEPTH = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface

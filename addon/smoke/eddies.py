@@ -27,7 +27,6 @@ _VISIBLE = 1.0e-9  # kg/m3; thinner smoke is displaced near visible smoke only
 _LEAST_WEIGHT = 0.02  # of a phase of the drift, as in `flow.Detail`
 
 Array = NDArray[np.float32]
-Mask = NDArray[np.bool_]
 
 
 def displace(snapshot: Snapshot, domain: Domain, seed: int) -> Snapshot:
