@@ -15,7 +15,7 @@ from fires import LATITUDE, LONGITUDE, axes, circle, round_fire
 from firetwin import cli
 from firetwin.allocation import (
     LIMITS,
-    arguments,
+    command,
     containment,
     divisions,
     job,
@@ -521,5 +521,5 @@ def test_members_of_a_forecast_at_a_control_line(round_run, forecast):
 @pytest.mark.parametrize("text", ["engine", "engine=0", "engine=x", "=3", "engine=1,engine=2", ""])
 def test_a_response_that_cannot_be_read_is_told(text):
     with pytest.raises(argparse.ArgumentTypeError, match=r"must have the form|names engine twice"):
-        arguments.parse_response(text)
-    assert arguments.parse_response("engine/3=4, dozer=1") == {"engine/3": 4, "dozer": 1}
+        command.parse_response(text)
+    assert command.parse_response("engine/3=4, dozer=1") == {"engine/3": 4, "dozer": 1}
