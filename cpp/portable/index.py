@@ -1,15 +1,17 @@
-"""Make the listing of the extension for Blender: ``index.py OUT ADDRESS ZIP...``.
+"""Make the listing of the extension for Blender: ``index.py [--incomplete] OUT ADDRESS ZIP...``.
 
 ZIPs are the extension in one or two versions, one zip per platform. Blender's `server-generate` describes
 them. The newest version goes to OUT/index.json, the version before it to OUT/index-previous.json, so that
 users can go back. There are two files because Blender (4.5 to 5.2) does not compare versions: of two
 compatible archives in one file it shows the last and installs the first.
 
-ADDRESS is the address of the archives without their names; `{version}` in it is replaced.
+ADDRESS is the address of the archives without their names; `{version}` in it is replaced. Without
+``--incomplete`` a version needs the zips of all platforms.
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import subprocess
@@ -40,11 +42,11 @@ def version_key(version: str) -> tuple[int, ...]:
     return tuple(map(int, version.split(".")))
 
 
-def write_index(path: Path, entries: list[dict], address: str) -> None:
+def write_index(path: Path, entries: list[dict], address: str, incomplete: bool) -> None:
     """Write a listing of one version, with absolute addresses of its archives."""
     version = entries[0]["version"]
     missing = PLATFORMS - {platform for entry in entries for platform in entry["platforms"]}
-    if missing or len(entries) != len(PLATFORMS):
+    if not incomplete and (missing or len(entries) != len(PLATFORMS)):
         sys.exit(f"index: version {version} needs one zip per platform; missing: {sorted(missing) or 'none'}")
     start = address.replace("{version}", version).rstrip("/")
     for entry in entries:
@@ -55,13 +57,18 @@ def write_index(path: Path, entries: list[dict], address: str) -> None:
     print(f"index: {path}: version {version}, {len(entries)} archives")
 
 
-def main(out: Path, address: str, zips: list[Path]) -> None:
+def main(out: Path, address: str, zips: list[Path], incomplete: bool = False) -> None:
     """Write the listing of the newest version, and of the version before it if its zips are given."""
     entries = list_archives(zips)
     versions = sorted({entry["version"] for entry in entries}, key=version_key, reverse=True)
     for version, path in zip(versions, (out / "index.json", out / "index-previous.json"), strict=False):
-        write_index(path, [entry for entry in entries if entry["version"] == version], address)
+        write_index(path, [entry for entry in entries if entry["version"] == version], address, incomplete)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), sys.argv[2], [Path(name) for name in sys.argv[3:]])
+    parser = argparse.ArgumentParser(description="Make the listing of the extension for Blender.")
+    parser.add_argument("--incomplete", action="store_true", help="accept zips of some platforms")
+    parser.add_argument("out", metavar="OUT", type=Path)
+    parser.add_argument("address", metavar="ADDRESS")
+    parser.add_argument("zips", metavar="ZIP", type=Path, nargs="+")
+    main(**vars(parser.parse_args()))

@@ -89,6 +89,9 @@ def test_missing_platform_and_bad_zip_are_refused(tmp_path, write_zip, present):
     made = make(tmp_path / "out", zips[1:])
     assert made.returncode == 1
     assert "missing: ['linux-x64']" in made.stderr
+    assert make(tmp_path / "some", zips[:1]).returncode == 1
+    assert make(tmp_path / "some", ["--incomplete", *zips[:1]]).returncode == 0
+    assert len(json.loads((tmp_path / "some/index.json").read_text())["data"]) == 1
     zips[0].write_bytes(b"not a zip")
     made = make(tmp_path / "out", zips)
     assert made.returncode == 1
