@@ -82,7 +82,7 @@ in_folder() { # work-folder name
 build() { # name archive
   local work=$portable/work/$1 TIMEFORMAT="libraries: $1 built in %0R s, processor %0U + %0S s"
   rm -rf "$work"
-  mkdir -p "$work/source" "$work/pack" "$portable/logs" "$portable/archives"
+  mkdir -p "$work/source" "$work/pack" "$portable/archives"
   export DESTDIR=$work/installed
   time logged "libraries: $1" "$portable/logs/$1.log" in_folder "$work" "$1"
   mv "$DESTDIR$prefix" "$work/pack/libraries"

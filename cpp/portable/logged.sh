@@ -5,6 +5,7 @@
 # the log and exits. Not for conditions: after `if` or before `||` bash does not stop at errors.
 logged() { # what log function argument...
   local what=$1 log=$2 status
+  mkdir -p "$(dirname "$log")"
   set +e
   (
     set -e
