@@ -15,7 +15,8 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 prefix=$portable/libraries
 export FIRETWIN_PORTABLE=$portable
 jobs=${FIRETWIN_JOBS:-$(nproc)}
-anywhere=@FIRETWIN_LIBRARIES@ # instead of $prefix in the text files of archives
+# Instead of $prefix and $portable/sysroot in the text files of archives.
+anywhere=@FIRETWIN_LIBRARIES@ any_sysroot=@FIRETWIN_SYSROOT@
 
 # shellcheck source=cpp/portable/logged.sh
 source "$here/logged.sh"
@@ -88,6 +89,7 @@ build() { # name archive
   mv "$DESTDIR$prefix" "$work/pack/libraries"
   keep_license "$1" "$work/source" "$work/pack/licenses/$1"
   move_prefix "$work/pack/libraries" "$prefix" "$anywhere"
+  move_prefix "$work/pack/libraries" "$portable/sysroot" "$any_sysroot"
   tar --create --directory "$work/pack" . | gzip -1 >"$2.part"
   rm -rf "$work" "$portable/archives/$1"-????????????????.tar.gz
   mv "$2.part" "$2"
@@ -109,6 +111,7 @@ restore() { # name archive
   mkdir -p "$work" "$portable/licenses" "$prefix"
   tar --extract --directory "$work" --file "$2"
   move_prefix "$work/libraries" "$anywhere" "$prefix"
+  move_prefix "$work/libraries" "$any_sysroot" "$portable/sysroot"
   cp -r --link "$work/libraries/." "$prefix/"
   cp -r "$work/licenses/." "$portable/licenses/"
   rm -rf "$work"
