@@ -18,7 +18,7 @@ run_packages=(
   # Libraries that Blender loads.
   libegl1 libgl1 libgl1-mesa-dri libxi6 libxrender1 libxkbcommon0 libxxf86vm1 libxfixes3 libsm6 libice6 libgomp1
 )
-wheel_packages=(g++-12 make curl)
+wheel_packages=(g++-12 make curl bzip2 xz-utils)
 test_packages=(
   geographiclib-tools libopenvdb-tools openimageio-tools proj-bin ffmpeg shellcheck
   debootstrap # folders with other Debians

@@ -6,7 +6,7 @@
 #   cpp/portable/build.sh                 build everything
 #   cpp/portable/build.sh --libraries     build only the libraries
 #
-# Needs g++-12, cmake, ninja, make, dpkg-deb, curl, and Python 3 with venv. FIRETWIN_PORTABLE replaces the
+# Needs g++-12, cmake, ninja, make, dpkg-deb, curl, bzip2, xz, and Python 3 with venv. FIRETWIN_PORTABLE replaces the
 # folder build/portable; FIRETWIN_JOBS is the number of parallel compilers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -20,9 +20,9 @@ source "$here/logged.sh"
 
 say() { echo "portable: $*" >&2; }
 
-for command in gcc-12 g++-12 cmake ninja make dpkg-deb curl python3; do
+for command in gcc-12 g++-12 cmake ninja make dpkg-deb curl bzip2 xz python3; do
   if ! command -v "$command" >/dev/null; then
-    say "$command is missing; on Debian: apt-get install g++-12 cmake ninja-build make dpkg curl python3-venv"
+    say "$command is missing; on Debian: apt-get install g++-12 cmake ninja-build make dpkg curl bzip2 xz-utils python3-venv"
     exit 1
   fi
 done
