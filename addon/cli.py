@@ -8,15 +8,14 @@ from __future__ import annotations
 
 import argparse
 import functools
-import importlib
 import io
 import os
 import shlex
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import NoReturn
 
+from . import plugins
 from .command import Command
 from .escaped import escaped
 
@@ -56,10 +55,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 @functools.cache
 def find_commands() -> dict[str, Command]:
     """Find the commands of this installation, by name: of `commands`, and of each feature's folder."""
-    package = Path(__file__).parent
-    files = [*package.glob("commands/[a-z]*.py"), *package.glob("*/command.py")]
-    names = sorted(".".join(("", path.parent.name, path.stem)) for path in files)
-    every = [importlib.import_module(name, __package__).COMMAND for name in names]
+    from . import commands
+
+    features = plugins.parts(str(__package__), "command").values()
+    every = [*plugins.values(commands.__name__, "COMMAND").values(), *(each.COMMAND for each in features)]
     return {each.name: each for each in sorted(every, key=lambda each: (each.subject, each.name))}
 
 

@@ -70,7 +70,7 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
 
 
 def add_origin(parser: argparse.ArgumentParser) -> None:
-    """Add options for the start time and the place of a model's output."""
+    """Add options for the start time, place, name and time zone of a model's output."""
     parser.add_argument(
         "--start", metavar="TIME", default="", help="start time of the run, if the files do not give it"
     )
@@ -83,3 +83,6 @@ def add_origin(parser: argparse.ArgumentParser) -> None:
         default="",
         help="coordinate reference system of grids in metres, such as EPSG:5070",
     )
+    parser.add_argument("--name", default="", help="name of the run (name of the folder and model)")
+    zone = "time zone of printed times, such as Europe/Paris (offset of --start, otherwise by longitude)"
+    parser.add_argument("--zone", default="", help=zone)

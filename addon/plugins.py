@@ -1,4 +1,4 @@
-"""Plugins: modules of a folder, found by name, so that one file adds one thing; "_" begins a helper's name.
+"""Plugins: modules found in folders, so that a new one needs no list; names of helpers begin with "_".
 
 The number `ORDER` of a module, 0 without one, decides its rank; modules of one rank are in order of names.
 """
@@ -30,6 +30,13 @@ def modules(package: str, function: str = "") -> dict[str, ModuleType]:
 def values(package: str, constant: str) -> dict[str, Any]:
     """Import all modules of a loaded package, and return a constant that each of them has, in order."""
     return {name: getattr(each, constant) for name, each in modules(package).items()}
+
+
+def parts(package: str, name: str) -> dict[str, ModuleType]:
+    """Import the module or package `name` of each folder of a loaded package that has it, by folder."""
+    folder = Path(str(sys.modules[package].__file__)).parent
+    places = {*folder.glob(f"*/{name}.py"), *(path.parent for path in folder.glob(f"*/{name}/__init__.py"))}
+    return {each: module(f"{package}.{each}", name) for each in sorted(path.parent.name for path in places)}
 
 
 def declared(folder: Path, constant: str) -> dict[str, Any]:

@@ -57,11 +57,19 @@ slow() { # minutes command...
 # A test of files that change rarely, by day: what no commit has changed since yesterday was tested last night.
 daily() { # minutes files command...
   # shellcheck disable=SC2086 # a list of paths
-  if git rev-parse --quiet --verify HEAD >/dev/null && [[ -z $(git log -1 --since=1.day --format=%h -- $2) ]]; then
+  if ! $release && git rev-parse --quiet --verify HEAD >/dev/null && [[ -z $(git log -1 --since=1.day --format=%h -- $2) ]]; then
     summary+=("left to the night: ${*:3}; no commit since yesterday changes $2")
   else
     slow "$1" "${@:3}"
   fi
+}
+
+fuzzers() {
+  local fuzz=tests/system/fuzz
+  daily 2 "$fuzz cpp/base cpp/io cpp/run cpp/tiles" $fuzz/run.sh --runs 20000
+  daily 1 "$fuzz/tilesets.py addon/tiles cpp/tiles" .venv/bin/python $fuzz/tilesets.py --runs 10000
+  daily 2 "$fuzz/files.py addon/run addon/stations addon/camera_import" .venv/bin/python $fuzz/files.py --seconds 10
+  daily 2 "$fuzz/convert.py addon/run" .venv/bin/python $fuzz/convert.py --each 200
 }
 
 pytest=(.venv/bin/python -m pytest -q -n "$(nproc)" --dist worksteal --max-worker-restart 0)
@@ -74,10 +82,7 @@ if $release; then
   fi
   slow 3 tests/system/dataset_oracles.sh
   slow 9 tests/system/versions.sh 5.2
-  slow 2 tests/system/fuzz/run.sh --runs 20000
-  slow 1 .venv/bin/python tests/system/fuzz/tilesets.py --runs 10000
-  slow 2 .venv/bin/python tests/system/fuzz/files.py --seconds 10
-  slow 2 .venv/bin/python tests/system/fuzz/convert.py --each 200
+  fuzzers
   slow 3 .venv/bin/python tests/system/fuzz/scenes.py --builds 20 --seconds 150
   slow 16 tests/system/window.sh
   slow 20 tests/system/sanitize.sh
@@ -92,12 +97,8 @@ else
   slow 0 "${pytest[@]}" tests/system --ignore tests/system/farm
   slow 0 "${pytest[@]}" tests/render "${done[@]}"
   slow 2 "${pytest[@]}" tests/unit -m hypothesis --hypothesis-profile thorough -o budget_factor=10
-  fuzz=tests/system/fuzz
-  daily 2 "$fuzz cpp/base cpp/io cpp/run cpp/tiles" $fuzz/run.sh --runs 20000
-  daily 1 "$fuzz/tilesets.py addon/tiles cpp/tiles" .venv/bin/python $fuzz/tilesets.py --runs 10000
-  daily 2 "$fuzz/files.py addon/run addon/stations addon/camera_import" .venv/bin/python $fuzz/files.py --seconds 10
-  daily 2 "$fuzz/convert.py addon/run" .venv/bin/python $fuzz/convert.py --each 200
-  daily 1 "$fuzz/scenes.py addon/shot" .venv/bin/python $fuzz/scenes.py --builds 8 --seconds 50
+  fuzzers
+  daily 1 "tests/system/fuzz/scenes.py addon/shot" .venv/bin/python tests/system/fuzz/scenes.py --builds 8 --seconds 50
   daily 8 "tests/system/chaos addon/leases.py addon/files.py addon/render addon/farm addon/tiles addon/smoke" \
     .venv/bin/python tests/system/chaos/chaos.py --minutes 5
   title="what tests/run.sh leaves out"

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import MACHINE, Command
 from ..progress import Reporter, result, say
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 Measures twelve steps and their alternatives in turn on this machine: median and range of at least five
@@ -52,6 +47,4 @@ def _run(arguments: argparse.Namespace) -> int:
     return 1 if missed else 0
 
 
-COMMAND = Command(
-    "bench", "benchmark run time and error against alternatives", _DETAIL, MACHINE, run=_run, add=_add
-)
+COMMAND = Command("bench", "benchmark run time and error against alternatives", _DETAIL, MACHINE, _run, _add)

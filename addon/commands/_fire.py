@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from . import _scene_runs
+from ._scene_runs import is_scene, open_runs
 
 if TYPE_CHECKING:
     from ..stations.verbs import Fire
@@ -17,6 +17,5 @@ def open_fire(path: Path) -> Fire:
     from ..shot.runs.run_head import Head
     from ..stations.verbs import Fire
 
-    is_scene = path.suffix == ".toml" and path.is_file()
-    run = next(iter(_scene_runs.open_runs(path).values())) if is_scene else readers.open(path)
+    run = next(iter(open_runs(path).values())) if is_scene(path) else readers.open(path)
     return Fire(run, Head(run))

@@ -11,6 +11,11 @@ if TYPE_CHECKING:
     from ..shot.shot import Shot
 
 
+def is_scene(path: Path) -> bool:
+    """Check whether a path is a scene file, and not a run folder."""
+    return path.suffix == ".toml" and path.is_file()
+
+
 def open_runs(scene: Path) -> dict[str, Run]:
     """Open all runs of a scene file, by name and in order."""
     from ..shot.source import ShotSource

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import SCENES, Command
 from ..progress import Reporter, count, result, say
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 Writes DIR/firetwin_assets.blend and DIR/blender_assets.cats.txt for Blender's asset browser. Add DIR under
@@ -54,6 +49,6 @@ COMMAND = Command(
     "write an asset library of trees, materials and node groups",
     _DETAIL,
     SCENES,
-    run=_run,
-    add=_add,
+    _run,
+    _add,
 )

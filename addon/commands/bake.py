@@ -58,6 +58,4 @@ def _frames(text: str, source: ShotSource) -> list[int]:
         raise UsageError(f"--frames: {error}") from None
 
 
-COMMAND = Command(
-    "bake", "prepare smoke for render, or write smoke volumes", _DETAIL, FILMS, run=_run, add=_add
-)
+COMMAND = Command("bake", "prepare smoke for render, or write smoke volumes", _DETAIL, FILMS, _run, _add)

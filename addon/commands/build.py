@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import SCENES, Command, add_scene
 from ..progress import Reporter, result, say
 from . import _tile_access
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 The file can be opened, played and rendered without the add-on. Its smoke volumes are files in the cache
@@ -65,6 +60,4 @@ def _run(arguments: argparse.Namespace) -> None:
     result(arguments.out)
 
 
-COMMAND = Command(
-    "build", "build the scene and save it as a .blend file", _DETAIL, SCENES, run=_run, add=_add
-)
+COMMAND = Command("build", "build the scene and save it as a .blend file", _DETAIL, SCENES, _run, _add)

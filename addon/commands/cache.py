@@ -29,7 +29,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
         metavar="SCENE|DIR",
         nargs="*",
         type=types.path,
-        help="scene files or cache folders (./parser)",
+        help="scene files or cache folders (./cache)",
     )
     parser.add_argument("--prune", action="store_true", help="remove the least recently used")
     parser.add_argument(
@@ -96,6 +96,6 @@ COMMAND = Command(
     "list cached smoke volumes and tiles, or remove the least recently used",
     _DETAIL,
     MACHINE,
-    run=_run,
-    add=_add,
+    _run,
+    _add,
 )

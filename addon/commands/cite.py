@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from .. import argument_types as types
 from ..command import RUNS, Command
 from ..progress import Reporter, result
-from ._scene_runs import list_runs
+from ._scene_runs import is_scene, list_runs
 
 if TYPE_CHECKING:
     from ..shot.shot import Shot
@@ -49,7 +49,7 @@ def _run(arguments: argparse.Namespace) -> None:
         raise UsageError("--license: is of --crate; name the folder of the film")
     if ensemble.sniff(arguments.run):
         rows = citations.of_ensemble(ensemble.open(arguments.run))
-    elif arguments.run.suffix == ".toml" and arguments.run.is_file():
+    elif is_scene(arguments.run):
         shot = ShotSource(scene=str(arguments.run)).shot()
         rows = _sources(shot)
         if arguments.crate:
@@ -99,4 +99,4 @@ def _write_crate(shot: Shot, rows: list[dict[str, str]], out: Path, licence: str
     return crate.write(out, runs, methods.paragraph(shot.run, inputs), rows, licence)
 
 
-COMMAND = Command("cite", "list the sources to cite with a run or a film", _DETAIL, RUNS, run=_run, add=_add)
+COMMAND = Command("cite", "list the sources to cite with a run or a film", _DETAIL, RUNS, _run, _add)

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import RUNS, Command, add_origin
 from ..progress import Reporter, result, say
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 The format is detected from the content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Model
@@ -43,7 +38,6 @@ def _add(parser: argparse.ArgumentParser) -> None:
         default=0,
         help="time step of the fields if the model writes arrival times (fitted)",
     )
-    parser.add_argument("--name", default="", help="name of the run (name of the folder and model)")
     parser.add_argument(
         "--members",
         action="store_true",
@@ -67,8 +61,6 @@ def _add(parser: argparse.ArgumentParser) -> None:
         default=0,
         help="length of the forecast of --members (of its longest member)",
     )
-    zone = "time zone of printed times, such as Europe/Paris (offset of --start, otherwise by longitude)"
-    parser.add_argument("--zone", default="", help=zone)
 
 
 def _run(arguments: argparse.Namespace) -> None:
@@ -99,4 +91,4 @@ def _run(arguments: argparse.Namespace) -> None:
         reporter.close()
 
 
-COMMAND = Command("convert", "convert a fire model's output to a run", _DETAIL, RUNS, run=_run, add=_add)
+COMMAND = Command("convert", "convert a fire model's output to a run", _DETAIL, RUNS, _run, _add)

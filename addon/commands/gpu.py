@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import MACHINE, Command
 from ..progress import result, say
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 Lists the GPUs that Cycles finds, whether their kernels are ready, and the kernel caches of the driver.
@@ -44,4 +39,4 @@ def _run(arguments: argparse.Namespace) -> None:
     result("\n".join(lines))
 
 
-COMMAND = Command("gpu", "list GPUs, or prepare their kernels", _DETAIL, MACHINE, run=_run, add=_add)
+COMMAND = Command("gpu", "list GPUs, or prepare their kernels", _DETAIL, MACHINE, _run, _add)

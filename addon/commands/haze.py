@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import RUNS, Command
 from ..progress import result
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 GRIB2 are files of HRRR (wrfsfc) with smoke: MASSDEN at 8 m and COLMD. Prints density, column mass, visual
@@ -61,5 +56,5 @@ def _run(arguments: argparse.Namespace) -> None:
 
 
 COMMAND = Command(
-    "haze", "read the smoke of a weather forecast for a scene's haze", _DETAIL, RUNS, run=_run, add=_add
+    "haze", "read the smoke of a weather forecast for a scene's haze", _DETAIL, RUNS, _run, _add
 )

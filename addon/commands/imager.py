@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import RUNS, Command
 from ..progress import Reporter, result
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a
@@ -71,6 +66,4 @@ def _run(arguments: argparse.Namespace) -> None:
     report(len(moments), len(moments))
 
 
-COMMAND = Command(
-    "imager", "simulate a satellite imager's measurements of a run", _DETAIL, RUNS, run=_run, add=_add
-)
+COMMAND = Command("imager", "simulate a satellite imager's measurements of a run", _DETAIL, RUNS, _run, _add)

@@ -5,16 +5,11 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import RUNS, Command
 from ..progress import result, say
-from ._scene_runs import list_runs
-
-if TYPE_CHECKING:
-    pass
-
+from ._scene_runs import is_scene, list_runs
 
 _DETAIL = """\
 Lists grid, extent, fuels, times, heat flux, energy, burned area and warnings, and reported acreages if the
@@ -38,7 +33,7 @@ def _run(arguments: argparse.Namespace) -> None:
     if ensemble.sniff(arguments.run):
         facts = summary.gather(ensemble.open(arguments.run))
         page = summary.page(facts)
-    elif arguments.run.suffix == ".toml" and arguments.run.is_file():
+    elif is_scene(arguments.run):
         shot = ShotSource(scene=str(arguments.run)).shot()
         runs = list_runs(shot)
         say(shot.describe_film())
@@ -55,4 +50,4 @@ def _run(arguments: argparse.Namespace) -> None:
         result(page)
 
 
-COMMAND = Command("info", "list the content of a run", _DETAIL, RUNS, run=_run, add=_add)
+COMMAND = Command("info", "list the content of a run", _DETAIL, RUNS, _run, _add)

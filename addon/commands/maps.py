@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import RUNS, Command
 from ..progress import result, say
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 DIR/fuel.png        surface and canopy fuel together, kg/m2; greener is denser
@@ -47,5 +42,5 @@ def _run(arguments: argparse.Namespace) -> None:
 
 
 COMMAND = Command(
-    "maps", "draw maps of the fuel load and of the maximum heat flux", _DETAIL, RUNS, run=_run, add=_add
+    "maps", "draw maps of the fuel load and of the maximum heat flux", _DETAIL, RUNS, _run, _add
 )

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import SCENES, Command
 from ..progress import result
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 Selects the most active part of the run, and fits cameras to the fire: an overview from upwind with the sun
@@ -48,4 +43,4 @@ def _run(arguments: argparse.Namespace) -> None:
     result(arguments.out)
 
 
-COMMAND = Command("new", "write a short scene file that fits a run", _DETAIL, SCENES, run=_run, add=_add)
+COMMAND = Command("new", "write a short scene file that fits a run", _DETAIL, SCENES, _run, _add)

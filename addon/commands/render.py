@@ -142,4 +142,4 @@ def _list_output(out: Path) -> None:
     result(out / manifest.NAME)
 
 
-COMMAND = Command("render", "render pictures and films", _detail, FILMS, run=_run, add=_add)
+COMMAND = Command("render", "render pictures and films", _detail, FILMS, _run, _add)

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import RUNS, Command
 from ..progress import Reporter, result, say
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 No output of a fire-atmosphere model for the King Fire is public. This run is synthetic: terrain, fuels and
@@ -62,4 +57,4 @@ def _run(arguments: argparse.Namespace) -> None:
     result(arguments.out)
 
 
-COMMAND = Command("sample", "write the synthetic King-like sample run", _DETAIL, RUNS, run=_run, add=_add)
+COMMAND = Command("sample", "write the synthetic King-like sample run", _DETAIL, RUNS, _run, _add)

@@ -4,13 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
-from typing import TYPE_CHECKING
 
 from ..command import SCENES, Command
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 Save it, and refer to it in the first line of a scene file (`#:schema firetwin.json`). TOML editors then
@@ -25,6 +20,4 @@ def _run(arguments: argparse.Namespace) -> None:
     print(json.dumps(json_schema(Settings), indent=1, ensure_ascii=False))
 
 
-COMMAND = Command(
-    "schema", "print the JSON Schema of scene files, for TOML editors", _DETAIL, SCENES, run=_run
-)
+COMMAND = Command("schema", "print the JSON Schema of scene files, for TOML editors", _DETAIL, SCENES, _run)

@@ -5,16 +5,11 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import RUNS, Command
 from ..progress import result, say
-from ._scene_runs import open_runs
-
-if TYPE_CHECKING:
-    pass
-
+from ._scene_runs import is_scene, open_runs
 
 _DETAIL = """\
 FILE holds dated perimeters (.geojson, .shp, .kml, .kmz, .gpkg) or FIRMS detections of VIIRS and MODIS
@@ -63,7 +58,7 @@ def _run(arguments: argparse.Namespace) -> None:
     if ensemble.sniff(arguments.run):
         _score_members(arguments)
         return
-    if arguments.run.suffix == ".toml" and arguments.run.is_file():
+    if is_scene(arguments.run):
         run, *others = open_runs(arguments.run).values()
         named = arguments.against or [other.path for other in others]
     else:
@@ -107,4 +102,4 @@ def _score_members(arguments: argparse.Namespace) -> None:
     result(json.dumps(results, indent=1) if arguments.json else members.page(results))
 
 
-COMMAND = Command("score", "score a run against observations of its fire", _DETAIL, RUNS, run=_run, add=_add)
+COMMAND = Command("score", "score a run against observations of its fire", _DETAIL, RUNS, _run, _add)

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import SCENES, Command, add_scene
 from ..progress import result
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 One point per frame: WGS84 degrees, metres above sea level (the datum of the run's elevations) and model
@@ -47,4 +42,4 @@ def _run(arguments: argparse.Namespace) -> None:
     result(arguments.out)
 
 
-COMMAND = Command("track", "write a camera's path as a GPX track", _DETAIL, SCENES, run=_run, add=_add)
+COMMAND = Command("track", "write a camera's path as a GPX track", _DETAIL, SCENES, _run, _add)

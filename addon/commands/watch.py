@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from .. import argument_types as types
 from ..command import RUNS, Command, add_origin
 from ..progress import result, say
-
-if TYPE_CHECKING:
-    pass
-
 
 _DETAIL = """\
 Polls the files of WRF-SFIRE, CFBM, or CF netCDF or zarr with a heat flux. It locks no file, so that the model
@@ -29,7 +24,6 @@ The exit status is 1 if the model failed."""
 
 def _add(parser: argparse.ArgumentParser) -> None:
     """Define the arguments."""
-    zone = "time zone of printed times, such as Europe/Paris (offset of --start, otherwise by longitude)"
     parser.add_argument(
         "run",
         metavar="RUN",
@@ -55,8 +49,6 @@ def _add(parser: argparse.ArgumentParser) -> None:
         help="end if the files have not changed for this time, s (never)",
     )
     add_origin(parser)
-    parser.add_argument("--name", default="", help="name of the run (name of the folder and model)")
-    parser.add_argument("--zone", default="", help=zone)
 
 
 def _run(arguments: argparse.Namespace) -> int:
@@ -82,6 +74,4 @@ def _run(arguments: argparse.Namespace) -> int:
     return 1 if state == "failed" else 0
 
 
-COMMAND = Command(
-    "watch", "convert the output of a model that is still running", _DETAIL, RUNS, run=_run, add=_add
-)
+COMMAND = Command("watch", "convert the output of a model that is still running", _DETAIL, RUNS, _run, _add)

@@ -6,18 +6,10 @@ menu Firetwin by submenu), `unregister`, and, if it has more than classes, `regi
 
 from __future__ import annotations
 
-import importlib
-from pathlib import Path
-from types import ModuleType
-
+from .. import plugins
 from .menu_entries import Line
 
-_PACKAGE = Path(__file__).parents[1]
-_NAMES = sorted(
-    {path.parent.name for path in _PACKAGE.glob("*/panel.py")}
-    | {path.parents[1].name for path in _PACKAGE.glob("*/panel/__init__.py")}
-)
-panels: list[ModuleType] = [importlib.import_module(f"..{name}.panel", __package__) for name in _NAMES]
+panels = tuple(plugins.parts(str(__package__).rpartition(".")[0], "panel").values())
 classes = tuple(each for panel in panels for each in panel.classes)
 properties = tuple(panel.properties for panel in panels)
 

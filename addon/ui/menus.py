@@ -84,7 +84,7 @@ _OWN: dict[str, tuple[Line, ...]] = {
     ),
 }
 MENUS = {name: (*lines[:-1], *feature_panels.menu_lines(name), lines[-1]) for name, lines in _OWN.items()}
-"""Submenus of the menu Firetwin, and their lines: those of features come before the last."""
+"""Lines of each submenu of the menu Firetwin; lines of features come before the last line."""
 
 WITHOUT_ENTRY = {
     "convert": "Open run starts it",

@@ -8,21 +8,11 @@ from pathlib import Path
 
 import firetwin
 import pytest
+from firetwin import plugins
 from scene_text import DRONE, NO_PLANTS, NO_SMOKE, TINY
 
 ADDON = Path(firetwin.__file__).parent
-COMMANDS = {
-    "allocation": "allocate",
-    "bench": "bench",
-    "brief": "brief",
-    "camera_import": "import",
-    "dataset": "dataset",
-    "delivery": "deliver",
-    "edit": "edit",
-    "export": "export",
-    "farm": "farm",
-}
-PACKAGES = sorted(path.parent.name for path in ADDON.glob("*/command.py"))
+PACKAGES = list(plugins.parts("firetwin", "command"))
 SCENE = 'run = "{run}"\n[time]\nframes = 1\n' + NO_PLANTS + NO_SMOKE + TINY + DRONE
 REGISTER = "import firetwin; firetwin.register(); firetwin.unregister()"
 IMPORT_ALL = """
@@ -75,7 +65,7 @@ def test_a_feature_is_not_needed_by_the_others(python_without, package):
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_a_missing_feature_has_no_command(python_without, package):
-    python, command = python_without([package]), COMMANDS[package]
+    python, command = python_without([package]), plugins.parts("firetwin", "command")[package].COMMAND.name
     ended = python("-m", "firetwin", command, "scene.toml", status=2)
     assert f"invalid choice: '{command}'" in ended.stderr
     listed = python("-m", "firetwin", "--help").stdout.splitlines()

@@ -99,9 +99,8 @@ def _set_pose_and_lens(view: Path, shot: Shot, obj: bpy.types.Object) -> None:
         data.type, data.ortho_scale = "ORTHO", 2.0 * view.half[0]
     obj.rotation_mode, obj.scale = "QUATERNION", (1.0, 1.0, 1.0)
     _animate(obj, "location", view.position, moved)
-    _animate(
-        obj, "rotation_quaternion", quaternions(view.rotation), 0.5 * turned
-    )  # unit quaternions hold half the angle
+    # Unit quaternions hold half the angle.
+    _animate(obj, "rotation_quaternion", quaternions(view.rotation), 0.5 * turned)
 
 
 def _animate(block: bpy.types.ID, what: str, values: NDArray[np.float64], tolerance: float) -> None:
