@@ -28,7 +28,7 @@ UNKNOWN = 5.0  # seconds of a file that has never run
 @functools.cache
 def tests() -> list[Path]:
     """Find all test files of the rooms of tests/quick.sh."""
-    return [path for room in ROOMS for path in sorted((ROOT / "tests" / room).glob("test_*.py"))]
+    return [path for room in ROOMS for path in sorted((ROOT / "tests" / room).rglob("test_*.py"))]
 
 
 def module(path: Path) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
 """Processor time of tests, their child processes included, and the budget of each room of tests.
 
-A room is a folder of tests, or a group of its files in ``tests/budget.toml``. The time of a test is the
+A room is a folder of tests with a budget in ``tests/budget.toml``. The time of a test is the
 processor time of its setup, call and teardown, so a shared fixture counts for the room that uses it first.
 
 Machines differ in speed by a factor of two to three, and busy processors slow each other down. Therefore each
@@ -19,7 +19,6 @@ import time
 import tomllib
 from collections import defaultdict
 from dataclasses import dataclass
-from fnmatch import fnmatch
 from pathlib import Path
 
 import numpy as np
@@ -66,34 +65,24 @@ class Speed:
 
 @dataclass(frozen=True)
 class Room:
-    """A room of tests and its budget in reference seconds."""
+    """A room of tests, by the beginning of its path in tests, and its budget in reference seconds."""
 
     name: str
     budget_s: float
-    files: tuple[str, ...] = ()
 
 
 def load_rooms(path: Path = BUDGET) -> list[Room]:
-    """Read the rooms: the groups of files of each folder first, then the rest of the folder."""
-    rooms = []
-    for folder, table in tomllib.loads(path.read_text(encoding="utf-8")).items():
-        for name, group in table.items():
-            if name != "rest":
-                files = tuple(
-                    f"{folder}/{each}" if "/" in each else f"{folder}/test_{each}.py"
-                    for each in group["files"]
-                )
-                rooms.append(Room(f"{folder}/{name}", group["seconds"], files))
-        rooms.append(Room(folder, table["rest"], (f"{folder}/*",)))
-    return rooms
+    """Read the rooms."""
+    return [
+        Room(name, budget_s) for name, budget_s in tomllib.loads(path.read_text(encoding="utf-8")).items()
+    ]
 
 
 def find_room(rooms: list[Room], test: str) -> Room:
     """Find the room of a test by its node id, relative to the root of the repository."""
     file = test.split("::")[0].removeprefix("tests/")
-    return next(
-        (room for room in rooms if any(fnmatch(file, each) for each in room.files)), Room("other", 0.0)
-    )
+    fitting = [room for room in rooms if file.startswith((f"{room.name}/", f"{room.name}."))]
+    return max(fitting, key=lambda room: len(room.name), default=Room("other", 0.0))
 
 
 class Account:

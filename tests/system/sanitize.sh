@@ -24,16 +24,16 @@ export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export PYTHONMALLOC=malloc PYTHONPATH=$package LD_PRELOAD=$libraries
 # Tests that measure memory would measure the memory of the sanitizer. Processes that limit their address space, such
 # as decoders of tiles, cannot start with its shadow memory; tests/system/fuzz/run.sh runs their code with sanitizers.
-dense=tests/unit/test_volume_dense.py
+dense=tests/unit/smoke/test_volume_dense.py
 exec "$python" -m pytest tests/unit -q -n "$(nproc)" --dist worksteal -p no:cacheprovider "$@" \
   -o longest_s=600 -o budget_factor=50 \
   --deselect "$dense::test_memory_does_not_grow_with_the_grid" \
   --deselect "$dense::test_levels_without_smoke_need_no_memory" \
   --deselect "$dense::test_air_without_smoke_needs_no_memory" \
-  --deselect tests/unit/test_memory.py::test_what_is_free_between_what_is_used_goes_back \
-  --deselect tests/unit/test_memory.py::test_the_peak_stays_when_memory_is_free_again \
-  --deselect tests/unit/test_convert.py::test_damaged_files_are_a_run_or_one_line \
-  --deselect tests/unit/test_tiles_chain.py::test_a_decoder_that_takes_too_long_loses_its_tile_alone \
-  --deselect tests/unit/test_tiles_chain.py::test_a_decoder_that_dies_loses_its_tile_alone \
-  --deselect tests/unit/test_tiles_chain.py::test_a_decoder_over_its_memory_loses_its_tile_alone \
-  --deselect tests/unit/test_tiles_decode.py
+  --deselect tests/unit/commands/test_memory.py::test_what_is_free_between_what_is_used_goes_back \
+  --deselect tests/unit/commands/test_memory.py::test_the_peak_stays_when_memory_is_free_again \
+  --deselect tests/unit/models/test_convert.py::test_damaged_files_are_a_run_or_one_line \
+  --deselect tests/unit/tiles/test_tiles_chain.py::test_a_decoder_that_takes_too_long_loses_its_tile_alone \
+  --deselect tests/unit/tiles/test_tiles_chain.py::test_a_decoder_that_dies_loses_its_tile_alone \
+  --deselect tests/unit/tiles/test_tiles_chain.py::test_a_decoder_over_its_memory_loses_its_tile_alone \
+  --deselect tests/unit/tiles/test_tiles_decode.py

@@ -1,0 +1,121 @@
+"""Developers' benchmarks: tools compute equal results, errors are errors, and all are listed."""
+
+import importlib
+import subprocess
+import sys
+from pathlib import Path
+
+import flow_conservation
+import numpy as np
+import particles
+import planning
+import plots
+import positions
+import puff_rise
+import pytest
+from firetwin.bench.harness import ORIGIN, Bench
+from firetwin.bench.timing import Times
+from firetwin_core.geo import LocalFrame
+from module_file import load_module
+
+FOLDER = Path(__file__).parents[3] / "tests/benchmarks"
+
+
+def benchmarks(*words):
+    return subprocess.run([sys.executable, FOLDER, *words], capture_output=True, text=True)
+
+
+def test_every_benchmark_is_listed_by_what_it_compares():
+    done = benchmarks()
+    assert done.returncode == 0
+    lines = dict(line.split(maxsplit=1) for line in done.stdout.splitlines())
+    scripts = {path.name for path in FOLDER.glob("*.py") if f"benchmarks/{path.name}" in path.read_text()}
+    assert scripts == {name for name in lines if name.endswith(".py")}
+    subjects = {path.stem for path in FOLDER.glob("*.py") if "\ndef run(bench: Bench)" in path.read_text()}
+    assert subjects == {name for name in lines if not name.endswith(".py")}
+    assert all(callable(importlib.import_module(name).run) for name in subjects)
+
+
+def test_a_subject_is_measured_and_printed(monkeypatch, capsys):
+    module = load_module(FOLDER / "__main__.py", "benchmarks")
+    monkeypatch.setattr(particles, "run", lambda bench: bench.row("60 steps/s", "firetwin", None, 1, "s"))
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    monkeypatch.setenv("PYTHONPATH", "")
+    monkeypatch.setattr(sys, "argv", ["benchmarks", "particles", "--markdown"])
+    module.main()
+    assert "| particles | 60 steps/s | firetwin |" in capsys.readouterr().out
+    monkeypatch.setattr(sys, "argv", ["benchmarks", "sailing"])
+    with pytest.raises(SystemExit):
+        module.main()
+
+
+def test_no_benchmark_has_the_name_of_another():
+    shipped = {path.name for path in (Path(__file__).parents[3] / "addon/bench").glob("*.py")}
+    assert not shipped & {path.name for path in FOLDER.glob("*.py")}
+
+
+def test_plots_are_drawn(tmp_path):
+    pytest.importorskip("matplotlib")
+    bench = Bench(subject="geodesy")
+    for side, seconds in ((144, 1e-3), (720, 2e-2)):
+        for tool, slower in (("firetwin", 1), ("slow", 8)):
+            times = Times((seconds * slower,))
+            error = 1e-9 * (slower - 1)
+            bench.row(f"{side} x {side}", tool, times, side**2, "value", error=error, error_unit="m")
+    for path in plots.draw(bench.report(), tmp_path):
+        assert path.read_bytes().startswith(b"\x89PNG")
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_errors_of_positions_are_errors():
+    pytest.importorskip("mpmath")
+    points = np.array([38.5, 39.1]), np.array([-121.0, -120.2]), np.array([200.0, 3000.0])
+    enu = LocalFrame(*ORIGIN).forward(*points)
+    assert positions.error(points, enu) < 5e-9
+    assert positions.error(points, enu + np.array([0, 0, 1e-3])) == pytest.approx(1e-3)
+
+
+def test_plumes_rise_as_the_theory_says():
+    way, end = puff_rise.errors(1e9)
+    assert way < 10
+    assert end < 1
+    wrong = puff_rise.euler(1e9, 1.0)
+    right = puff_rise.euler(1e9, 0.1)
+    time, top = right
+    assert abs(top / puff_rise.theory(1e9, np.array(time)) - 1) < 0.01
+    assert abs(wrong[1] / top - 1) > 1e-3
+
+
+def test_the_flow_keeps_heat_and_smoke():
+    given, held = flow_conservation.warmed()
+    assert given < 1e-9
+    assert held < 1e-4
+    assert flow_conservation.written() < 1e-6
+
+
+def test_the_exact_particle_solves_its_equation():
+    """Against Runge and Kutta's method with small steps."""
+    pull = np.array([0, 0, particles.LIFT])
+
+    def slope(time, state):
+        drag = (particles.wind(time) - state[3:]) / particles.RELAXATION
+        return np.concatenate([state[3:], drag + pull])
+
+    state, step = np.concatenate([np.zeros(3), particles.VELOCITY]), 1e-3
+    for i in range(2000):
+        a = slope(i * step, state)
+        b = slope((i + 0.5) * step, state + step / 2 * a)
+        c = slope((i + 0.5) * step, state + step / 2 * b)
+        d = slope((i + 1) * step, state + step * c)
+        state = state + step / 6 * (a + 2 * b + 2 * c + d)
+    np.testing.assert_allclose(particles.exact(2.0), state[:3], rtol=0, atol=1e-9)
+    assert np.linalg.norm(particles.euler(240, 2) - particles.exact(particles.SECONDS)) < 0.1
+
+
+def test_a_scene_of_many_cameras_is_planned(tmp_path, monkeypatch):
+    monkeypatch.setattr(planning, "CAMERAS", 2)
+    scene = planning.write_scene(tmp_path)
+    wanted = planning.missing(scene, tmp_path / "out")
+    assert wanted > 2
+    planning.finish(scene, tmp_path / "out", 1)
+    assert planning.missing(scene, tmp_path / "out") == 0

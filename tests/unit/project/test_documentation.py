@@ -1,0 +1,152 @@
+"""`help` has the texts of the stubs, and the stubs have the content of the module."""
+
+import ast
+import importlib
+import inspect
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import firetwin_core as core
+import pytest
+
+ROOT = Path(__file__).parents[3]
+STUBS = ROOT / "cpp" / "bindings" / "firetwin_core-stubs"
+GENERATOR = ROOT / "cpp" / "bindings" / "documentation.py"
+
+
+def names():
+    """Every module, class, function, method and property of the stubs: its place in them and its node."""
+    for path in sorted(STUBS.glob("*.pyi")):
+        module = "firetwin_core" if path.stem == "__init__" else f"firetwin_core.{path.stem}"
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        yield module, (), tree
+        for node in tree.body:
+            if isinstance(node, ast.ClassDef | ast.FunctionDef):
+                yield module, (node.name,), node
+            for member in node.body if isinstance(node, ast.ClassDef) else ():
+                if isinstance(member, ast.FunctionDef):
+                    yield module, (node.name, member.name), member
+
+
+def found(module, path):
+    thing = importlib.import_module(module)
+    for name in path:
+        thing = inspect.getattr_static(thing, name) if inspect.isclass(thing) else getattr(thing, name)
+    return thing
+
+
+@pytest.mark.parametrize(
+    ("module", "path", "node"), [pytest.param(*name, id=".".join((name[0], *name[1]))) for name in names()]
+)
+def test_help_says_what_the_stub_says(module, path, node):
+    written = ast.get_docstring(node)
+    said = inspect.cleandoc(found(module, path).__doc__ or "")
+    assert said == (written or "")
+    assert written or path[-1].startswith("__"), "a public name without a docstring"
+
+
+def functions():
+    """Functions, methods and constructors: what calls them, and their node."""
+    for module, path, node in names():
+        if isinstance(node, ast.FunctionDef) and not node.decorator_list:
+            if path[-1] == "__init__":
+                yield pytest.param(module, path[:-1], node, id=".".join((module, *path)))
+            elif not path[-1].startswith("__"):
+                yield pytest.param(module, path, node, id=".".join((module, *path)))
+
+
+def defaults(arguments):
+    """Names in order, and the values of those that may be left out."""
+    values = [ast.unparse(default).replace("float('inf')", "inf") for default in arguments.defaults]
+    plain = [eval(value, {"inf": float("inf")}) for value in values]
+    optional = [argument.arg for argument in arguments.args][len(arguments.args) - len(plain) :]
+    plain = [list(value) if isinstance(value, tuple) else value for value in plain]
+    return [a.arg for a in arguments.args if a.arg != "self"], dict(zip(optional, plain, strict=True))
+
+
+@pytest.mark.parametrize(("module", "path", "node"), list(functions()))
+def test_what_is_bound_takes_what_the_stub_says(module, path, node):
+    """pybind11 reports its signature if a call has unknown arguments."""
+    thing = importlib.import_module(module)
+    for name in path:
+        thing = getattr(thing, name)
+    with pytest.raises(TypeError) as error:
+        thing(there_is_no_such_argument=1)
+    line = next(line for line in str(error.value).splitlines() if line.startswith("    1. "))
+    text = line[line.index("(") : line.rindex(")") + 1]
+    bound = ast.parse(f"def f{text}: ...").body[0]
+    assert defaults(bound.args) == defaults(node.args)
+
+
+def test_signatures_are_seen_by_tools():
+    """With names and defaults, so that editors and `help` show them."""
+    signature = inspect.signature(core.run.Run.frames)
+    assert str(signature) == "(self, field='heat_flux', indices=None, ahead=8)"
+    assert list(inspect.signature(core.flux.at_time).parameters) == ["run", "time"]
+
+
+def generate(tmp_path, text):
+    stubs = tmp_path / "stubs"
+    stubs.mkdir()
+    (stubs / "thing.pyi").write_text(text)
+    out = tmp_path / "out.cpp"
+    command = [sys.executable, GENERATOR, stubs, out]
+    return subprocess.run(command, capture_output=True, text=True), out
+
+
+def test_a_name_without_a_docstring_fails_the_build(tmp_path):
+    result, out = generate(tmp_path, '"""A."""\ndef f(x: int, y: float = 2.0) -> int: ...\n')
+    assert result.returncode != 0
+    assert "thing.f has no docstring" in result.stderr
+    assert not out.exists()
+
+
+STUB = """\
+'''A.'''
+class C:
+    '''B.'''
+    def f(self, y: float = 2.0) -> int:
+        '''Does.
+
+        More.
+        '''
+"""
+
+
+def test_what_is_made_for_the_build(tmp_path):
+    result, out = generate(tmp_path, STUB)
+    assert result.returncode == 0, result.stderr
+    made = out.read_text()
+    assert '{"thing", R"doc(A.)doc"}' in made
+    assert '{"thing.C", R"doc(B.)doc"}' in made
+    assert '{"thing.C.f", R"doc(f(self, y=2.0)\n--\n\nDoes.\n\nMore.)doc"}' in made
+
+
+def known_differences():
+    """Differences of pybind11: its metaclass, and an __init__ even in classes without a constructor."""
+    for module, path, node in names():
+        if isinstance(node, ast.ClassDef):
+            name = ".".join((module, *path))
+            yield name
+            if not any(isinstance(m, ast.FunctionDef) and m.name == "__init__" for m in node.body):
+                yield f"{name}.__init__"
+
+
+def test_the_stubs_fit_the_module(tmp_path):
+    """Names, parameters and defaults, both ways, by mypy's own check of stubs against a module."""
+    pytest.importorskip("mypy")
+    shutil.copytree(STUBS, tmp_path / "firetwin_core")
+    (tmp_path / "known.txt").write_text("\n".join(known_differences()))
+    path = os.pathsep.join(place for place in sys.path if place)
+    options = ["--allowlist", "known.txt", "--ignore-unused-allowlist"]
+    result = subprocess.run(
+        [sys.executable, "-m", "mypy.stubtest", "firetwin_core", *options],
+        cwd=tmp_path,
+        env=os.environ | {"MYPYPATH": str(tmp_path), "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
