@@ -1,4 +1,4 @@
-"""Rules of wording: patterns, each with a hint and two examples that tests/unit/project/test_prose.py checks."""
+"""Rules of wording: patterns, each with a hint and two examples that test_prose.py checks."""
 
 from __future__ import annotations
 

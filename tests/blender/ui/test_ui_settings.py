@@ -1,12 +1,12 @@
 """Settings in the .blend file: scene files go in and come out without loss."""
 
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import bpy
 import firetwin
 import pytest
+from any_settings import any_table
 from firetwin.errors import Error
 from firetwin.scene.build import PARTS
 from firetwin.shot import schema
@@ -16,8 +16,6 @@ from firetwin.ui import camera_list, changed_settings, job, keys, scene_file, se
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis_profiles import examples
-
-from any_settings import any_table
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 
