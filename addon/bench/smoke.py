@@ -1,8 +1,4 @@
-"""Smoke at one time -> OpenVDB: fields of a box, and puffs; time, file size and mass error.
-
-The mass of puffs is read back from the file with the openvdb module bundled with Blender. Without that module
-it is the mass that the core reports before rounding to half precision.
-"""
+"""Smoke at one time -> OpenVDB: fields of a box; time, file size and mass error."""
 
 from __future__ import annotations
 
@@ -22,9 +18,6 @@ from .harness import OURS, Bench
 from .timing import Runner
 
 SIDE, VOXEL = 288, 20.0  # m
-CELLS = 100  # of the front that emits puffs
-VOXELS = (200.0, 100.0)  # m
-MANY, FINE = 1000, 50.0  # such cells; m
 MEGAVOXELS = 45.0  # a second
 
 
@@ -45,32 +38,12 @@ def ring(side: int) -> NDArray[np.float32]:
     return np.where(inside & (z < 0), 1e-4 * (1 + rng.random(x.shape)), 0).astype(np.float32)
 
 
-def puffs(cells: int) -> volume.Puffs:
-    """Make the smoke of a front that burned `cells` fuel cells in an hour."""
-    rng = np.random.default_rng(7)
-    arrival = np.sort(rng.uniform(0, 3600, cells))
-    place = np.stack([arrival * 2, rng.uniform(-3000, 3000, cells), rng.uniform(800, 1200, cells)], axis=1)
-    return volume.puffs(3600.0, arrival, rng.uniform(1, 6, cells), place, [4.0, 3.0], 74.0**2)
-
-
-def mass_in(openvdb: ModuleType, path: str, grid: str, unit: float) -> float:
-    """Sum a grid of the file, times the volume of a voxel, times `unit`."""
-    density = openvdb.read(path, grid)
-    low, high = density.evalActiveVoxelBoundingBox()
-    values = np.zeros([b - a + 1 for a, b in zip(low, high, strict=True)], np.float32)
-    density.copyToArray(values, ijk=low)
-    voxel = np.prod(density.transform.voxelSize())
-    return float(values.sum(dtype=float)) * float(voxel) * unit
-
-
 def run(bench: Bench) -> None:
-    """Measure three fields of a box, as a solved flow has them, then puffs at several voxel sizes."""
+    """Measure three fields of a box, as a solved flow has them."""
     openvdb = bundled_openvdb(bench)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "smoke.vdb")
         _box(bench, path, openvdb)
-        _voxel_sizes(bench, path, openvdb)
-        _many(bench, path)
 
 
 def _box(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
@@ -102,38 +75,3 @@ def with_openvdb(openvdb: ModuleType, path: str, fields: dict[str, NDArray]) -> 
         grid.transform = openvdb.createLinearTransform(voxelSize=VOXEL)
         grids.append(grid)
     openvdb.write(path, grids=grids)
-
-
-def _voxel_sizes(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
-    smoke = puffs(CELLS)
-    exact = float(np.sum(smoke.mass))
-    for voxel in VOXELS:
-        tool = Runner(OURS, partial(volume.write_smoke, path, smoke, voxel), threads=2)
-        times = bench.time([tool])[tool.label]
-        frame = tool.call()
-        mass = mass_in(openvdb, path, "dilution", volume.FRESH_SMOKE) if openvdb else frame.mass
-        bench.row(
-            f"puffs of {CELLS} cells at {voxel:g} m",
-            OURS,
-            times,
-            frame.active_voxels,
-            "voxel",
-            error=abs(mass / exact - 1),
-            error_unit="of the mass",
-            threads=2,
-            bytes=frame.bytes,
-        )
-
-
-def _many(bench: Bench, path: str) -> None:
-    """Measure a complete frame, whose voxels count once."""
-    smoke = puffs(MANY)
-    write = partial(volume.write_smoke, path, smoke, FINE)
-    frame = write()
-    wrong = abs(frame.mass / float(np.sum(smoke.mass)) - 1)
-    tools = [Runner(OURS, write, threads, wrong) for threads in (1, 2)]
-    case = f"puffs of {MANY:,} cells at {FINE:g} m"
-    times = bench.race(case, tools, frame.active_voxels, "voxel", "of the mass")
-    speed = times[tools[1].label].speed(frame.active_voxels / 1e6)
-    bench.target("Build and write rate, a frame of puffs, two threads", speed, MEGAVOXELS, "Mvoxel/s")
-    bench.target("Smoke mass of puffs, relative error", wrong, 1e-6, "", most=True)

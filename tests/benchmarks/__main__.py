@@ -22,7 +22,6 @@ SUBJECTS = (
     "planting",
     "frame_change",
     "scattering",
-    "puff_rise",
     "flow_conservation",
     "particles",
     "planning",

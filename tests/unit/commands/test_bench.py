@@ -207,14 +207,10 @@ def test_front_error_and_departure():
 
 def test_the_smoke_files_hold_their_mass(monkeypatch):
     bench = Bench(subject="smoke")
-    monkeypatch.setattr(smoke, "VOXELS", (400.0, 200.0))
     monkeypatch.setattr(smoke, "SIDE", 48)
-    monkeypatch.setattr(smoke, "MANY", 20)
     smoke.run(bench)
     ours = [row for row in bench.rows.values() if row.tool == "firetwin"]
     assert all(row.error < 1e-4 for row in ours)
-    assert [row.bytes > 1000 for row in ours if "puffs of 100 " in row.case] == [True, True]
-    assert "MB |" in table.markdown(bench.report())
 
 
 def test_a_drone_sees_some_of_the_stems_of_a_stand():

@@ -11,7 +11,6 @@ import particles
 import planning
 import plots
 import positions
-import puff_rise
 import pytest
 from firetwin.bench.harness import ORIGIN, Bench
 from firetwin.bench.timing import Times
@@ -73,17 +72,6 @@ def test_errors_of_positions_are_errors():
     enu = LocalFrame(*ORIGIN).forward(*points)
     assert positions.error(points, enu) < 5e-9
     assert positions.error(points, enu + np.array([0, 0, 1e-3])) == pytest.approx(1e-3)
-
-
-def test_plumes_rise_as_the_theory_says():
-    way, end = puff_rise.errors(1e9)
-    assert way < 10
-    assert end < 1
-    wrong = puff_rise.euler(1e9, 1.0)
-    right = puff_rise.euler(1e9, 0.1)
-    time, top = right
-    assert abs(top / puff_rise.theory(1e9, np.array(time)) - 1) < 0.01
-    assert abs(wrong[1] / top - 1) > 1e-3
 
 
 def test_the_flow_keeps_heat_and_smoke():
