@@ -98,7 +98,7 @@ def _matrix(arguments: argparse.Namespace, shot: Shot, found: ForeignScene) -> n
     sidecar = placing.read_sidecar(arguments.file)
     origin = arguments.origin or found.origin or (sidecar[0] if sidecar else None)
     if origin is None:
-        say("the file has no place on the Earth; it is read with origin and axes of the scene")
+        say("the file is not georeferenced; it is read with origin and axes of the scene")
         return np.eye(4)
     undulation = placing.find_geoid(shot, arguments.geoid, sidecar[1] if sidecar else None)
     return placing.scene_from(shot, origin, _known_geoid(undulation))

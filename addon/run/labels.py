@@ -69,9 +69,10 @@ def _geojson(path: Path, text: str) -> list[Label]:
     try:
         features = json.loads(text)["features"]
     except json.JSONDecodeError as error:
-        raise input_error(path, f"is no JSON: {error.msg}", line=error.lineno, column=error.colno) from None
+        reason = f"not a JSON file: {error.msg}"
+        raise input_error(path, reason, line=error.lineno, column=error.colno) from None
     except (KeyError, TypeError, ValueError, RecursionError):
-        raise input_error(path, "is no GeoJSON FeatureCollection") from None
+        raise input_error(path, "not a GeoJSON FeatureCollection") from None
     labels = []
     for number, feature in enumerate(features if isinstance(features, list) else [], 1):
         try:

@@ -40,7 +40,7 @@ def rows(
             if any(text.strip() for text in row):
                 yield reader.line_num + 1, {n: row[k] if k < len(row) else "" for n, k in columns.items()}
     except csv.Error as error:
-        raise input_error(path, f"is no CSV: {error}") from None
+        raise input_error(path, f"not a CSV file: {error}") from None
 
 
 def _columns(header: list[str], names: Mapping[str, set[str]]) -> dict[str, int]:

@@ -111,7 +111,7 @@ def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:
             arguments.towns.name, arguments.seed,
         )  # fmt: skip
     if not station_file.stations:
-        raise input_error(arguments.towns or arguments.run, "has no place for a base; list at least one")
+        raise input_error(arguments.towns or arguments.run, "lists no site for a base; list at least one")
     writing.write(station_file, arguments.out)
     bases, resources = (
         count(len(station_file.stations), "base"),

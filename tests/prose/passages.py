@@ -38,15 +38,15 @@ def paragraphs(text: str, line: int, last: int, kind: str = TEXT) -> Iterator[Pa
 
 def _docstrings(nodes: list[ast.AST]) -> dict[int, str]:
     """Find docstrings: the identity of their nodes, and the kind of text."""
-    found = {}
+    kinds = {}
     for node in nodes:
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef) and node.body:
             first = node.body[0]
             if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant):
                 is_function = isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
                 is_property = is_function and any("property" in ast.unparse(d) for d in node.decorator_list)
-                found[id(first.value)] = DOCSTRING if is_function and not is_property else TEXT
-    return found
+                kinds[id(first.value)] = DOCSTRING if is_function and not is_property else TEXT
+    return kinds
 
 
 COMMENT_OR_STRING = re.compile(  # of Python
@@ -55,7 +55,7 @@ COMMENT_OR_STRING = re.compile(  # of Python
 
 
 def read_python(text: str) -> Iterator[Passage]:
-    """Read docstrings, message strings of at least five words and comments of Python or a stub."""
+    """Read docstrings, message strings of at least four words and comments of Python or a stub."""
     nodes = list(ast.walk(ast.parse(text)))
     docstrings = _docstrings(nodes)
     pieces = set()
@@ -68,7 +68,7 @@ def read_python(text: str) -> Iterator[Passage]:
         else:
             continue
         kind = docstrings.get(id(node))
-        if kind or content.count(" ") >= 4:
+        if kind or content.count(" ") >= 3:
             yield from paragraphs(content, node.lineno, node.end_lineno or node.lineno, kind or TEXT)
     yield from join_comments(find_comments(text, COMMENT_OR_STRING))
 

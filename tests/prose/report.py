@@ -1,9 +1,9 @@
 """Check docstrings, comments, messages and pages for wording that readers must read twice.
 
 ``.venv/bin/python tests/prose`` lists the hits of each folder and page with more than 1.5 hits per 1,000
-words, and fails if there are any; ``--table`` prints words and rate of every folder and page;
-``--list [PATH ...]`` prints every hit. The rules are in rules.py, each with a hint and two examples that a
-test checks.
+words, and fails if there are any, if Python says "is no X", or if names.py finds more names than its
+ceilings; ``--table`` prints words and rate of every folder and page; ``--list [PATH ...]`` prints every hit
+and name. The rules are in rules.py, each with a hint and two examples that a test checks.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+import names
 from passages import READERS, Passage, without_code
 from rules import RULES, Rule
 
@@ -54,12 +55,12 @@ class Hit(NamedTuple):
 
 def find_files(paths: Iterable[str]) -> list[Path]:
     """Find every file below the paths that has a reader."""
-    found = set()
+    files = set()
     for path in (ROOT / name for name in paths):
         for each in path.rglob("*") if path.is_dir() else [path]:
             if each.suffix in READERS and not SKIPPED & set(each.relative_to(ROOT).parts):
-                found.add(each)
-    return sorted(found)
+                files.add(each)
+    return sorted(files)
 
 
 def check_passage(passage: Passage) -> Iterator[tuple[int, str, Rule]]:
@@ -112,22 +113,32 @@ def main() -> int:
     parser.add_argument("--list", action="store_true", help="print every hit")
     arguments = parser.parse_args()
     words, hits = count(arguments.paths)
-    found: dict[str, list[Hit]] = defaultdict(list)
+    by_place: dict[str, list[Hit]] = defaultdict(list)
     for hit in hits:
-        found[place(hit.path)].append(hit)
-    rates = {name: 1000 * len(found[name]) / max(number, 1) for name, number in words.items()}
+        by_place[place(hit.path)].append(hit)
+    rates = {name: 1000 * len(by_place[name]) / max(number, 1) for name, number in words.items()}
     if arguments.table:
         print(f"{'folder or page':32} {'rate':>6} {'hits':>6} {'words':>8}")
         for name in sorted(rates, key=lambda name: -rates[name]):
-            print(f"{name:32} {rates[name]:6.1f} {len(found[name]):6} {words[name]:8}")
+            print(f"{name:32} {rates[name]:6.1f} {len(by_place[name]):6} {words[name]:8}")
         total = sum(words.values())
         print(f"{'all':32} {1000 * len(hits) / max(total, 1):6.1f} {len(hits):6} {total:8}")
         return 0
+    unclear = names.count(ROOT)
     if arguments.list:
         show(hits)
+        for name in (name for folder in unclear.values() for name in folder):
+            print(f"{name.path}:{name.line}: {name.name}, for {name.lines} lines; write what the object is")
         return 0
     over = {name: rate for name, rate in rates.items() if rate > LIMIT}
-    show(hit for name in over for hit in found[name])
-    for name, rate in over.items():
-        print(f"{name}: {rate:.1f} hits per 1,000 words, at most {LIMIT}", file=sys.stderr)
-    return int(bool(over))
+    strict = [hit for hit in hits if hit.rule.is_strict and hit.path.endswith(".py")]
+    show({*strict, *(hit for name in over for hit in by_place[name])})
+    messages = [f"{name}: {rate:.1f} hits per 1,000 words, at most {LIMIT}" for name, rate in over.items()]
+    messages += [
+        f"{folder}: {len(unclear[folder])} names such as found, known or made, at most {ceiling}; see --list"
+        for folder, ceiling in names.CEILINGS.items()
+        if len(unclear[folder]) > ceiling
+    ]
+    messages += [f"{len(strict)} hits of a rule that Python may not break"] * bool(strict)
+    print(*messages, sep="\n", end="\n" * bool(messages), file=sys.stderr)
+    return int(bool(messages))

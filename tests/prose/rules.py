@@ -18,6 +18,11 @@ class Rule(NamedTuple):
     leave: str
     kinds: tuple[str, ...] = (DOCSTRING, TEXT, CELL)
 
+    @property
+    def is_strict(self) -> bool:
+        """True if Python may not have a single hit."""
+        return "no X" in self.name
+
 
 def _rule(name: str, pattern: str, instead: str, hit: str, leave: str, *kinds: str) -> Rule:
     return Rule(name, re.compile(pattern), instead, hit, leave, kinds or (DOCSTRING, TEXT, CELL))
@@ -49,6 +54,13 @@ RULES = (
         '"is not a X"',
         "The content is no decoded tile.",
         "There is no tile, and the error is no larger than before.",
+    ),
+    _rule(
+        "holds no X, has no place, no X: ...",
+        r"\b(?:holds?|held) no (?!longer\b|numbers\b)\w+|\bha(?:s|ve|d) no place\b|^(?:X: )?no [A-Z]\w+: ",
+        '"contains no X", "not a X: ..."',
+        "The archive holds no tour and has no place here.",
+        "The archive contains no tour and is not a KMZ file.",
     ),
     _rule(
         "passive of machine behaviour",

@@ -189,7 +189,7 @@ def _place(grid: Grid) -> Placed:
         text = f"rows and columns are taken as parallels and meridians; cells are {off:.2g} m off at most"
         return Placed(rows, columns, error=text)
     if min(grid.shape) < 2:
-        raise Error("a grid of one row or column that does not run north or east has no place in a run")
+        raise Error("a grid of one row or column must run north or east")
     side = float(np.sqrt(grid.cell[0] * grid.cell[1]))
     low, high = latitude.min(), latitude.max()
     left, right = longitude.min(), longitude.max()

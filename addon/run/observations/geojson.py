@@ -35,7 +35,7 @@ def read(path: Path, system: str = "") -> list[Feature]:
     except (UnicodeDecodeError, RecursionError) as error:
         raise input_error(path, f"not valid JSON: {error}") from None
     if not isinstance(whole, dict) or "type" not in whole:
-        raise input_error(path, 'no GeoJSON: it has no "type"')
+        raise input_error(path, 'not a GeoJSON file: it has no "type"')
     system = _named_system(whole) or ("" if _is_in_degrees(whole) else system)
     if whole["type"] == "FeatureCollection":
         features = whole.get("features")
@@ -78,7 +78,7 @@ def _is_in_degrees(whole: dict[str, Any]) -> bool:
 def _feature(path: Path, place: str, feature: Any, said: dict[str, Any], system: str) -> Feature:
     """Parse a feature; collection properties `said`, such as ForeFire's ``valid_at``, apply to it."""
     if not isinstance(feature, dict):
-        raise input_error(path, f"{place} is no table")
+        raise input_error(path, f"{place} is not a table")
     properties = feature.get("properties")
     return Feature(
         tuple(_polygons(path, place, feature.get("geometry"), system)),

@@ -39,7 +39,7 @@ def read(path: Path, system: str = "") -> list[Feature]:
         with foreign_database.opened(path) as base:
             return [row for table in _tables(base, system) for row in _rows(path, base, table)]
     except sqlite3.Error as error:
-        raise input_error(path, f"no GeoPackage: {error}") from None
+        raise input_error(path, f"not a GeoPackage: {error}") from None
 
 
 class _Table(NamedTuple):

@@ -51,14 +51,14 @@ def unpack_kmz(path: Path) -> bytes:
         with zipfile.ZipFile(path) as archive:
             inside = [item for item in archive.infolist() if item.filename.lower().endswith(".kml")]
             if not inside:
-                raise input_error(path, "holds no .kml")
+                raise input_error(path, "contains no .kml file")
             if inside[0].file_size > _LARGEST:
                 raise input_error(path, f"its .kml has {inside[0].file_size / 1e6:,.0f} MB")
             text = archive.read(inside[0])
             files.check_values(path, [text])
             return text
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError) as error:
-        raise input_error(path, f"no KMZ: {str(error)[:1].lower()}{str(error)[1:]}") from None
+        raise input_error(path, f"not a KMZ file: {str(error)[:1].lower()}{str(error)[1:]}") from None
 
 
 def _placemarks(path: Path, folder: ElementTree.Element, inherited: dict[str, str]) -> Iterator[Feature]:

@@ -76,7 +76,7 @@ def _begun(options: Options, domain: dict, arrival: NDArray, fronts: list, notes
             f"the last front is of {max(dated):%Y-%m-%d %H:%M:%S} UTC: times count from {start:%H:%M:%S}"
         )
         return from_arrival_time.with_start(options, start)
-    notes.append("times count from midnight (UTC) of refDay in refYear; the files hold no other time of day")
+    notes.append("times count from midnight (UTC) of refDay in refYear; the files give no other time of day")
     return from_arrival_time.with_start(options, day)
 
 

@@ -126,7 +126,7 @@ def _read(path: Path, _changed: int, _size: int) -> Track:
 def _validated(path: Path, points: Sequence[Point]) -> Track:
     """Validate points and make a track."""
     if not points:
-        raise input_error(path, "holds no track: it needs points with latitude and longitude")
+        raise input_error(path, "contains no track: it needs points with latitude and longitude")
     for point in points:
         if not (abs(point.latitude) <= 90.0 and abs(point.longitude) <= 180.0):
             place = f"{point.latitude:g}, {point.longitude:g}"

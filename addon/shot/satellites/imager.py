@@ -225,7 +225,7 @@ def _inside(grid: ImagerGrid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.i
     rows = np.arange(int(np.ceil(north.max())), int(np.floor(south.min())))
     columns = np.arange(int(np.ceil(west.max())), int(np.floor(east.min())))
     if len(rows) == 0 or len(columns) == 0:
-        raise NothingSeenError("the domain of the run holds no whole pixel of this imager")
+        raise NothingSeenError("the domain of the run contains no complete pixel of this imager")
     return rows, columns
 
 

@@ -33,7 +33,7 @@ def check(settings: Settings) -> None:
     with reading(path), path.open("rb") as file:
         begin = file.read(8)
     if not begin.startswith(_KINDS):
-        reason = f"terrain.globe: {path} is no JPEG, PNG, TIFF or EXR by its first bytes"
+        reason = f"terrain.globe: {path} is not a JPEG, PNG, TIFF or EXR by its first bytes"
         raise scene_text.error_at(settings.path, _WHERE, reason)
     if not settings.terrain.globe_credit.strip():
         reason = "terrain.globe needs terrain.globe_credit, the words that its owner asks for"

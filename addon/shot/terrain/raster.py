@@ -63,7 +63,7 @@ class GeoTiff:
     Raises
     ------
     InputError
-        rasterio is missing, or the file is no GeoTIFF or has no georeference.
+        rasterio is missing, or the file is not a GeoTIFF or has no georeference.
     """
 
     def __init__(self, settings: SceneSettings, name: str) -> None:

@@ -42,7 +42,7 @@ def sentence(found: Difference | None, undulation: float | None) -> str:
         Height of the geoid that was applied, m; None for a run of heights above the ellipsoid.
     """
     if found is None:
-        return "tiles and the run have no place in common, so that their heights could not be compared"
+        return "tiles and the run do not overlap, so their heights could not be compared"
     low, median, high = (round(each, 1) + 0.0 for each in found)
     said = (
         f"the tiles' ground is {abs(median):.1f} m {'below' if median < 0.0 else 'above'} the scene's own "

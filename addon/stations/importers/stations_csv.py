@@ -52,7 +52,7 @@ def read(path: Path, options: ImportOptions = USUAL) -> Batch:
                     draft = drafts.make_draft(path, batch, row.get, found, f"line {line}")
                     rows.append(positions.Row(row.get(x), row.get(y), draft))
     except csv.Error as error:
-        raise input_error(path, f"is no CSV: {error}") from None
+        raise input_error(path, f"not a CSV file: {error}") from None
     positions.add_rows(path, batch, rows, options.crs)
     batch.notes += drafts.describe_columns(found)
     return batch

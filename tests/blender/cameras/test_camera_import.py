@@ -150,7 +150,7 @@ def test_a_stage_without_a_place_has_the_axes_of_the_scene(path, tmp_path, capsy
     check(imported(path, tmp_path / "move.usda"))
     told = capsys.readouterr().err
     assert "omitted cameras that are not perspective: top" in told
-    assert "no place on the Earth" in told
+    assert "is not georeferenced" in told
 
 
 def test_a_stage_elsewhere_on_the_earth_is_placed(path, tmp_path):

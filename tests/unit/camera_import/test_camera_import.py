@@ -118,7 +118,7 @@ def test_a_kmz_that_is_none_is_explained(scene, tmp_path):
     with zipfile.ZipFile(tmp_path / "tour.kmz", "w") as archive:
         archive.writestr("readme.txt", "no tour")
     (tmp_path / "text.kmz").write_text("no archive")
-    for name, words in (("tour.kmz", "holds no .kml"), ("text.kmz", "no KMZ")):
+    for name, words in (("tour.kmz", "contains no .kml"), ("text.kmz", "not a KMZ")):
         with pytest.raises(InputError, match=words):
             kml.tours(tmp_path / name, shot(scene).ground, 0.0)
 

@@ -154,7 +154,7 @@ BAD = {
     "cut": ("a.gpx", GPX[:200], 4, "not whole XML"),
     "no xml": ("a.gpx", b"\xff\xfe\x00\x01PK", 1, "not whole XML"),
     "encoding": ("a.gpx", GPX.replace('version="1.0"', 'version="1.0" encoding="no-such"'), 1, "XML"),
-    "empty": ("a.gpx", "<gpx/>", 0, "holds no track"),
+    "empty": ("a.gpx", "<gpx/>", 0, "contains no track"),
     "empty csv": ("a.csv", "", 1, "names no column latitude"),
     "nan": ("a.gpx", GPX.replace('"38.904"', '"nan"'), 4, 'the lat is "nan", which is not a number'),
     "lacking": ("a.gpx", GPX.replace('lat="38.904" ', ""), 4, "the lat is"),

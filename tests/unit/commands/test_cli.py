@@ -186,7 +186,7 @@ def test_an_imager_says_what_is_in_its_way(make_run, tmp_path, capfd):
     """A domain smaller than a pixel is not blamed on the satellite's longitude."""
     folder, out = make_run(), tmp_path / "seen"
     assert cli.main(["imager", str(folder), "--out", str(out)]) == 1
-    assert f"{folder}: the domain of the run holds no whole pixel" in (said := capfd.readouterr().err)
+    assert f"{folder}: the domain of the run contains no complete pixel" in (said := capfd.readouterr().err)
     assert "--instrument viirs" in said
     assert "--longitude" not in said
     assert cli.main(["imager", str(folder), "--out", str(out), "--longitude", "30"]) == 2

@@ -39,17 +39,17 @@ def test_geojson_by_its_points(tmp_path):
         ("name,lat,lon\nA,91,2", 2, "latitude is 91; it goes from -90 to 90"),
         ("name,lat,lon\nA,nan,2", 2, "latitude is nan"),
         ("name,lat,lon\n,1,2", 2, "a name has 1 to 60 letters, not 0"),
-        (f"name,lat,lon\n{'A' * 200_000},1,2", 0, "is no CSV: field larger"),
-        (f'{{"features": {"1" * 5000}}}', 0, "is no GeoJSON FeatureCollection"),
+        (f"name,lat,lon\n{'A' * 200_000},1,2", 0, "not a CSV file: field larger"),
+        (f'{{"features": {"1" * 5000}}}', 0, "not a GeoJSON FeatureCollection"),
         (
             f'{{"features": [{{"geometry": {{"type": "Point", "coordinates": [0, {"9" * 400}]}}, '
             '"properties": {"name": "A"}}]}',
             0,
             "feature 1: latitude is 9+, not a number",
         ),
-        ("{", 1, "is no JSON"),
+        ("{", 1, "not a JSON"),
         ('{"features": [{"geometry": {"type": "Point"}}]}', 0, "feature 1 has no name or no coordinates"),
-        ("{}", 0, "is no GeoJSON FeatureCollection"),
+        ("{}", 0, "not a GeoJSON FeatureCollection"),
     ],
 )
 def test_one_clear_error(tmp_path, text, line, reason):

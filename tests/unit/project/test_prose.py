@@ -9,6 +9,7 @@ import pytest
 ROOT = Path(__file__).parents[3]
 sys.path.insert(0, str(ROOT / "tests/prose"))
 
+import names  # noqa: E402
 import passages  # noqa: E402
 import report  # noqa: E402
 import rules  # noqa: E402
@@ -97,6 +98,48 @@ echo "# what is $#"  # beside it
 )
 def test_hits_have_the_line_of_their_first_word(read, text, lines):
     assert sorted(line for passage in read(text) for line, _, _ in report.check_passage(passage)) == lines
+
+
+def test_python_may_not_say_is_no_x_at_any_rate(tmp_path, monkeypatch, capsys):
+    (tmp_path / "a.py").write_text('"""' + "Word. " * 9000 + '"""\n\nX = "the file is no tile; delete it"\n')
+    monkeypatch.setattr(report, "ROOT", tmp_path)
+    monkeypatch.setattr(sys, "argv", ["prose", "a.py"])
+    assert report.main() == 1
+    assert "a.py:3: " in capsys.readouterr().out
+
+
+NAMES = """\
+class Here:
+    pass
+
+
+def far(found):
+    def inner(known):
+        return known
+
+    made = 1
+    # A comment.
+    return inner(made) + found
+
+
+def near():
+    known = [made for made in range(3)]
+    return known
+"""
+
+
+@pytest.mark.parametrize(("ceiling", "status"), [(1, 1), (2, 0)])
+def test_names_that_live_long_and_definitions_count_up_to_the_ceiling(
+    tmp_path, monkeypatch, capsys, ceiling, status
+):
+    (tmp_path / "addon").mkdir()
+    (tmp_path / "addon/a.py").write_text(NAMES)
+    monkeypatch.setattr(report, "ROOT", tmp_path)
+    monkeypatch.setattr(names, "CEILINGS", {"addon": ceiling})
+    monkeypatch.setattr(sys, "argv", ["prose", "addon"])
+    assert [(name.line, name.name) for name in names.count(tmp_path)["addon"]] == [(1, "Here"), (5, "found")]
+    assert report.main() == status
+    assert ("2 names" in capsys.readouterr().err) == bool(status)
 
 
 @pytest.mark.parametrize(("words", "status"), [(500, 1), (1000, 0)])

@@ -89,7 +89,7 @@ def test_a_value_beyond_the_limit_of_length_is_refused(make, monkeypatch):
 def test_an_expression_that_is_too_deep_is_refused(make):
     deep = "+".join(["a"] * (limits.SQLITE_DEPTH + 20))
     path = make(f"CREATE TABLE t (a, CHECK ({deep} > 0))")
-    with pytest.raises(InputError, match="no GeoPackage"):
+    with pytest.raises(InputError, match="not a GeoPackage"):
         geopackage.read(path)
 
 

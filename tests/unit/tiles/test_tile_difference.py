@@ -46,4 +46,4 @@ def test_the_remedy_is_the_geoid_s_height(median, undulation, end):
 
 
 def test_tiles_of_another_place_are_told():
-    assert "no place in common" in tile_difference.sentence(None, 0.0)
+    assert "do not overlap" in tile_difference.sentence(None, 0.0)
