@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from . import plugins
-from .command import Command
+from .command import Command, Extension
 from .escaped import escaped
 
 _EPILOG = """\
@@ -39,7 +39,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="surrogateescape")  # print file names byte for byte
     try:
-        return find_commands()[arguments.command].run(arguments) or 0
+        for each in (*arguments.extensions, find_commands()[arguments.command]):
+            if (status := each.run(arguments)) is not None:
+                return status
+        return 0
     except KeyboardInterrupt:
         print("\nfiretwin: stopped; finished files stay", file=sys.stderr)
         return 130
@@ -57,9 +60,16 @@ def find_commands() -> dict[str, Command]:
     """Find the commands of this installation, by name: of `commands`, and of each feature's folder."""
     from . import commands
 
-    features = plugins.parts(str(__package__), "command").values()
-    every = [*plugins.values(commands.__name__, "COMMAND").values(), *(each.COMMAND for each in features)]
+    own = [each.COMMAND for each in plugins.of_rooms("command") if hasattr(each, "COMMAND")]
+    every = [*plugins.values(commands.__name__, "COMMAND").values(), *own]
     return {each.name: each for each in sorted(every, key=lambda each: (each.subject, each.name))}
+
+
+@functools.cache
+def find_extensions(command: str) -> tuple[Extension, ...]:
+    """Find the extensions of a command, in each feature's folder."""
+    every = (each for room in plugins.of_rooms("command") for each in getattr(room, "EXTENSIONS", ()))
+    return tuple(each for each in every if each.command == command)
 
 
 def parse(words: list[str]) -> argparse.Namespace:
@@ -77,7 +87,7 @@ def parse(words: list[str]) -> argparse.Namespace:
         rest, options = commands[words[0]].prepare(words[1:])
         words = [words[0], *rest]
     arguments = _parser(commands).parse_args(words)
-    arguments.options = options
+    arguments.options, arguments.extensions = options, find_extensions(arguments.command)
     return arguments
 
 
@@ -121,12 +131,18 @@ def _parser(commands: dict[str, Command]) -> argparse.ArgumentParser:
     parsers = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for each in commands.values():
         detail = each.detail if isinstance(each.detail, str) else each.detail()
-        text = f"{each.summary[0].upper()}{each.summary[1:]}.\n\n{detail}".strip()
-        each.add(
-            parsers.add_parser(
-                each.name, help=each.summary, description=text, parents=[common], formatter_class=raw
-            )
+        extensions = find_extensions(each.name)
+        details = [
+            f"{each.summary[0].upper()}{each.summary[1:]}.",
+            detail,
+            *(one.detail for one in extensions),
+        ]
+        text = "\n\n".join(filter(None, details))
+        inner = parsers.add_parser(
+            each.name, help=each.summary, description=text, parents=[common], formatter_class=raw
         )
+        for part in (each, *extensions):
+            part.add(inner)
     return parser
 
 

@@ -1,7 +1,8 @@
 """Command: the declaration of a command of the command line, and arguments that several commands have.
 
-A module ``command.py`` of a feature's folder, and each module of ``commands``, has one as `COMMAND`. They are
-all imported for the help, and therefore import no heavy module themselves.
+A module ``command.py`` of a feature's folder, and each module of ``commands``, has one as `COMMAND`. A
+feature can extend commands of others by `EXTENSIONS`. They are all imported for the help, and therefore
+import no heavy module themselves.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeVar
 
 from . import argument_types as types
 
@@ -54,6 +56,50 @@ class Command:
     add: Callable[[argparse.ArgumentParser], None] = _none
     prepare: Callable[[list[str]], tuple[list[str], list[str]]] = _as_given
     former: tuple[str, ...] = ()
+
+
+def _run_nothing(arguments: argparse.Namespace) -> int | None:
+    """Leave a call to the command."""
+    return None
+
+
+T = TypeVar("T")
+
+
+def _amend_nothing(arguments: argparse.Namespace, value: T) -> T:
+    return value
+
+
+@dataclass(frozen=True)
+class Extension:
+    """An extension of another feature's command.
+
+    Attributes
+    ----------
+    command
+        Name of the command.
+    add
+        Adds arguments to its parser.
+    run
+        Runs a call in place of the command; returns its exit status, None to leave the call to the command.
+    amend
+        Completes a value of the command (see `amend`), and returns it.
+    detail
+        Further help.
+    """
+
+    command: str
+    add: Callable[[argparse.ArgumentParser], None] = _none
+    run: Callable[[argparse.Namespace], int | None] = _run_nothing
+    amend: Callable = _amend_nothing
+    detail: str = ""
+
+
+def amend(arguments: argparse.Namespace, value: T) -> T:
+    """Complete a value of a command by its extensions."""
+    for each in getattr(arguments, "extensions", ()):
+        value = each.amend(arguments, value)
+    return value
 
 
 def add_verb(verbs: argparse._SubParsersAction, name: str, summary: str) -> argparse.ArgumentParser:

@@ -39,6 +39,11 @@ def parts(package: str, name: str) -> dict[str, ModuleType]:
     return {each: module(f"{package}.{each}", name) for each in sorted(path.parent.name for path in places)}
 
 
+def of_rooms(name: str) -> tuple[ModuleType, ...]:
+    """Import the module or package `name` of each room that has it, such as ``panel``, in order of rooms."""
+    return tuple(parts(str(__package__), name).values())
+
+
 def declared(folder: Path, constant: str) -> dict[str, Any]:
     """Read a literal constant of those modules of a folder that have it, in order; none is imported."""
     texts = {path.stem: path.read_text(encoding="utf-8") for path in sorted(folder.glob("[!_]*.py"))}

@@ -11,7 +11,7 @@ import firetwin_core
 
 from ..html_text import quote, size
 from ..run import methods, times
-from ..run.growing import watched
+from ..run.readers import folder
 from ..run.score import report, used
 from ..stations.records import EXERCISE, Source
 from . import curve, units
@@ -39,8 +39,8 @@ def _head(briefing: Briefing) -> Iterator[str]:
         )
     if briefing.exercise:
         warnings.append(f"<b>{EXERCISE}.</b>")
-    if unfinished := _growing(Path(briefing.run.path), briefing.zone):
-        warnings.append(unfinished)
+    for head, text in folder.warnings(Path(briefing.run.path), briefing.zone):
+        warnings.append(f"<b>{quote(head)}</b> {quote(text)}")
     if warnings:
         yield f'<p class="warn">{"<br>".join(warnings)}</p>'
     grid = briefing.facts["grid"]
@@ -55,23 +55,6 @@ def _head(briefing: Briefing) -> Iterator[str]:
     )
     pairs = "".join(f"<div><dt>{name}</dt><dd>{quote(value)}</dd></div>" for name, value in facts)
     yield f'<dl class="facts">{pairs}</dl>'
-
-
-def _growing(run: Path, zone: str) -> str:
-    """Warn that the model had not ended; "" if it had, or the run does not grow."""
-    folder = watched.of_revision(run)
-    state = watched.status(folder).get("state", "unknown") if folder else "ended"
-    if not folder or state == "ended":
-        return ""
-    newest = watched.times(folder)[-1]
-    moments = [
-        times.text(each, zone, seconds=True)
-        for each in (newest.moment, datetime.fromisoformat(newest.accepted))
-    ]
-    return (
-        f"<b>The model had not ended</b> when this page was written (state: {quote(state)}). "
-        f"Newest time: {quote(moments[0])}, read at {quote(moments[1])}."
-    )
 
 
 def growth(briefing: Briefing) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import argument_types as types
-from ..command import FILMS, Command, add_scene
+from ..command import FILMS, Command, add_scene, amend
 from ..progress import Reporter, count, result, say
 from . import _tile_access
 
@@ -27,10 +27,6 @@ passes:
 Without --resume all selected frames are rendered again. Several renders, on one or more computers, can write
 to one folder at the same time and divide the frames by leases. Start each with --resume and with the same
 scene file, run, Firetwin and Blender.
-
---follow films a run that `watch` writes. A frame is rendered when the next model time exists, from the times
-up to it, so that it equals the frame that --follow renders when the model has ended. Exposure is metered in
-the first frame and kept. Cameras that follow the fire are an error. Films are replaced as a whole.
 
 Before the first frame the expected memory is printed, if there is an estimate: for smoke solved as a flow
 and ray marched, and for pictures without smoke. At the end --json prints expected and peak memory (bytes,
@@ -71,11 +67,6 @@ def _add(parser: argparse.ArgumentParser) -> None:
         help="keep finished pictures whose settings and inputs have not changed",
     )
     parser.add_argument(
-        "--follow",
-        action="store_true",
-        help="render each frame when the next model time of a growing run exists (see watch)",
-    )
-    parser.add_argument(
         "--preset",
         choices=types.OUTPUT_PRESETS,
         help="settings of EXR files and films for post-production (from the scene file)",
@@ -97,12 +88,8 @@ def _run(arguments: argparse.Namespace) -> None:
         arguments.resume,
         access=_tile_access.read(arguments),
     )
-    if arguments.follow:
-        from ..jobs import follow
-
-        made = follow.run(fitted_scene.find_source(arguments), asked, Reporter(), say)
-    else:
-        made = render.run(fitted_scene.find_source(arguments), asked, Reporter(), say)
+    run = amend(arguments, render.run)
+    made = run(fitted_scene.find_source(arguments), asked, Reporter(), say)
     if arguments.json:
         print(json.dumps(_render_json(arguments.out, made), indent=1))
     else:

@@ -15,7 +15,6 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..run.growing import known_run
 from ..shot import comparison, forecast, passes, picture_credits, schema
 from ..shot.settings import Camera, Settings, code_fingerprint, mount
 from ..shot.shot import Shot
@@ -146,8 +145,8 @@ def compute_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = 
 
 
 def _run_inputs(shot: Shot, progress: Progress) -> dict[str, str]:
-    """Hash the run; all known runs of a growing run (`run.growing.known_run`) have one identity."""
-    identity = known_run.identity(Path(shot.run.path))
+    """Hash the run; runs of other times of one film have one identity."""
+    identity = content.identity(Path(shot.run.path))
     if not identity:
         return shot.input_hashes(progress=progress)
     names = content.field_names(shot.run)

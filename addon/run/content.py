@@ -22,6 +22,8 @@ from ..errors import reading
 from ..progress import Progress, silent
 
 REMEMBERED = ".firetwin-hashes.json"
+IDENTITY = "film.json"
+"""File of a run folder with a text that is equal for runs of other times of one film."""
 _AXES = ("latitude", "longitude", "fuel_latitude", "fuel_longitude")
 _STEP = 1 << 22  # bytes
 _YOUNG = 2.0  # s; a file modified this recently may change again within the same timestamp
@@ -70,6 +72,14 @@ def inputs(
         whole = (folder / name).is_dir()
         result[name] = hashlib.sha256("\n".join(lines).encode()).hexdigest() if whole else hashes[files[0]]
     return result
+
+
+def identity(folder: Path) -> str:
+    """Return the identity of a run folder, in place of hashes; "" for nearly all runs."""
+    try:
+        return str(json.loads((folder / IDENTITY).read_text(encoding="utf-8")))
+    except (OSError, ValueError):
+        return ""
 
 
 def field_names(run: Run) -> list[str]:

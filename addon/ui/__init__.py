@@ -17,7 +17,6 @@ from . import (
     foreign,
     former_names,
     go_to,
-    growing_run,
     keymap,
     manual,
     maps,
@@ -120,7 +119,6 @@ def unregister() -> None:
     queue.clear()
     vr.unregister()
     viewport.unregister()
-    growing_run.stop()
     feature_panels.unregister()
     maps.clear()
     tile_credits.unregister()

@@ -12,21 +12,9 @@ import bpy
 
 from ..blender import owned
 from ..jobs.worker import StoppedError
-from ..progress import count
 from ..run import readers
 from ..shot.settings import scene_file as file
-from . import (
-    auto_framing,
-    changed_settings,
-    choice,
-    growing_run,
-    job,
-    maps,
-    preferences,
-    scene_file,
-    solve,
-    working,
-)
+from . import auto_framing, changed_settings, choice, job, maps, preferences, scene_file, solve, working
 from .job import InThread, Steps
 from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
@@ -95,15 +83,18 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 
 def inspect_run(uid: int) -> Steps:
     """Inspect in a thread, then store the facts in the scene with this `session_uid`."""
+    from . import feature_panels  # whose panels import this module
+
     settings = owned.scene(uid).firetwin
     settings.problem = ""
     folder = Path(bpy.path.abspath(settings.run))
     try:
-        growth, (found, images) = yield InThread(
-            "reading the run", lambda **_: (growing_run.look(folder), collect_facts(folder))
+        after, (found, images) = yield InThread(
+            "reading the run", lambda **_: (feature_panels.look(folder), collect_facts(folder))
         )
         owned.scene(uid).firetwin.facts = json.dumps(found)
-        growing_run.start(folder, growth)
+        for start in after:
+            start()
         auto_framing.apply_framing(owned.scene(uid).firetwin, found["fits"])
         maps.show(owned.scene(uid).firetwin.run, images)
         yield from auto_framing.reframe(uid)
@@ -171,6 +162,8 @@ class FIRETWIN_PT_run(SidebarPanel, bpy.types.Panel):
     bl_order = 0
 
     def draw(self, context: bpy.types.Context) -> None:
+        from . import feature_panels
+
         settings, layout = context.scene.firetwin, self.layout
         column = layout.column()
         column.enabled = job.Job.current is None
@@ -186,17 +179,8 @@ class FIRETWIN_PT_run(SidebarPanel, bpy.types.Panel):
             box = layout.box().column(align=True)
             draw_paragraph(context, box, settings.problem, "ERROR")
             working.draw_copy_button(box, settings.problem)
-        _draw_growth(context, column, Path(bpy.path.abspath(settings.run)))
+        feature_panels.draw_run(context, column, Path(bpy.path.abspath(settings.run)))
         maps.draw(layout, settings.run)
-
-
-def _draw_growth(context: bpy.types.Context, layout: bpy.types.UILayout, folder: Path) -> None:
-    """Draw the state of a growing run, and a button to read its new times."""
-    if text := growing_run.describe(folder):
-        draw_paragraph(context, layout.column(align=True), text, "TIME")
-    if new := growing_run.new_times(folder):
-        label = f"Read {count(new, 'new time')}"
-        layout.operator(FIRETWIN_OT_inspect.bl_idname, text=label, icon="FILE_REFRESH")
 
 
 def _draw_hint(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:

@@ -6,10 +6,10 @@ from pathlib import Path
 import growing_model
 import numpy as np
 import pytest
-from firetwin.jobs import convert, follow, watch
+from firetwin.growing import follow, watch, watched
+from firetwin.jobs import convert
 from firetwin.jobs.render import RenderRequest
 from firetwin.run import readers
-from firetwin.run.growing import watched
 from firetwin.shot.source import ShotSource
 from firetwin_core import sensor
 from scene_text import NO_PLANTS, NO_SMOKE, TINY

@@ -24,7 +24,6 @@ from firetwin_core.run import Run
 from ... import limits, plugins
 from ...errors import Error, input_error, reading
 from .. import times
-from ..growing import watched
 from . import folder
 
 _MANY = 200_000  # files of a folder
@@ -49,8 +48,6 @@ def open(path: str | Path) -> Run:
         if not folder.sniff(path) and foreign(path):
             reason = f"is a fire model's own output; make a run of it: firetwin convert {path} --out RUN"
             raise input_error(path, reason)
-        if watched.is_watched(path) and not folder.sniff(path):
-            raise input_error(path, "has no complete time yet; wait for firetwin watch")
         found = folder.open(path) if folder.sniff(path) else run.open(path)  # which reports errors
         _check_years(found)
         return found

@@ -1,33 +1,46 @@
 """Reader of Firetwin's own format: a folder with run.toml, and a file or a folder of files per field.
 
-A folder of `firetwin watch` is the newest revision of its run.
+A room's ``run_folder.py`` recognises other folders that stand for a run, such as one that still grows. It
+has ``sniff(path)``, ``newest(path)``, the run folder to read, ``changing_file(path)``, and
+``warning(run, zone)``, a warning about a run with its head, or ("", "").
 """
 
 from __future__ import annotations
 
 from pathlib import Path
+from types import ModuleType
 
 from firetwin_core import run
 from firetwin_core.run import Run
 
-from ..growing import watched
+from ... import plugins
 
 NAME = "a folder with run.toml"
 
 
 def sniff(path: Path) -> bool:
-    """Check whether the folder contains a run.toml, or is a watched folder with a time."""
-    return (path / "run.toml").is_file() or (path / watched.TIMES).is_file()
+    """Check whether the folder contains a run.toml, or stands for a run."""
+    return (path / "run.toml").is_file() or _reader(path) is not None
 
 
 def changing_file(path: Path) -> Path:
     """Return the file of a run that changes with the run."""
-    description = path / "run.toml"
-    return description if description.is_file() else path / watched.TIMES
+    reader = _reader(path)
+    return reader.changing_file(path) if reader else path / "run.toml"
 
 
 def open(path: Path) -> Run:
     """Open the run."""
-    if not (path / "run.toml").is_file() and (newest := watched.newest(path)):
-        return run.open(newest)
-    return run.open(path)
+    reader = _reader(path)
+    return run.open(reader.newest(path) if reader else path)
+
+
+def warnings(path: Path, zone: str) -> list[tuple[str, str]]:
+    """Return heads and texts of warnings about the run in a folder."""
+    return [found for each in plugins.of_rooms("run_folder") if any(found := each.warning(path, zone))]
+
+
+def _reader(path: Path) -> ModuleType | None:
+    if (path / "run.toml").is_file():
+        return None
+    return next((each for each in plugins.of_rooms("run_folder") if each.sniff(path)), None)

@@ -5,8 +5,9 @@ from types import SimpleNamespace
 import bpy
 import growing_model
 import pytest
-from firetwin.jobs import watch
-from firetwin.ui import growing_run, run
+from firetwin.growing import panel as growing_run
+from firetwin.growing import watch
+from firetwin.ui import run
 
 pytest.importorskip("netCDF4")
 
@@ -39,14 +40,14 @@ def model(tmp_path, monkeypatch):
     look.poll()
     yield SimpleNamespace(writer=writer, watch=look, out=tmp_path / "DIR")
     writer.close()
-    growing_run.stop()
+    growing_run.unregister()
 
 
 def lines(folder):
     """Lines of the panel."""
     preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0))
     layout, context = Layout(), SimpleNamespace(preferences=preferences, region=SimpleNamespace(width=2000))
-    run._draw_growth(context, layout, folder)
+    growing_run.draw_run(context, layout, folder)
     return layout.drawn
 
 

@@ -31,7 +31,6 @@ from firetwin.errors import InputError, UsageError
 from firetwin.imaging import map_symbols
 from firetwin.render import manifest
 from firetwin.run import content
-from firetwin.run.growing import watched
 from firetwin.run.score import report
 from firetwin.stations import fire_arrival, reading
 from firetwin_core import run as runs
@@ -64,8 +63,6 @@ def change(folder, **lines):
 @pytest.fixture
 def own(folder, tmp_path):
     """A copy of the run that a test may change."""
-    import shutil
-
     return Path(shutil.copytree(folder, tmp_path / "own"))
 
 
@@ -602,21 +599,6 @@ def test_resources_say_what_is_known_of_them(gpkg):
     )
     assert "tank at least 500 gal (1,893 l), pump" in facts.facts(found, engine, "us")
     assert "people at least 18" in facts.facts(found, crew)
-
-
-def test_the_page_of_a_growing_run_names_its_state_and_newest_time(folder, tmp_path):
-    revision = watched.revision_folder(tmp_path / "DIR", 1, 13)
-    shutil.copytree(folder, revision)
-    time = watched.Accepted(
-        1, 13, "2014-09-17T10:00:00+00:00", 21600.0, "fire.nc", 12, "next", "", "2014-09-17T11:30:00+00:00"
-    )
-    watched.append(tmp_path / "DIR", [], [time])
-    (tmp_path / "DIR" / watched.STATUS).write_text('{"state": "stalled"}')
-    head = sections.head(briefing.gather(briefing.Request(tmp_path / "DIR")))
-    assert "state: stalled" in head
-    assert "17 Sep 2014 02:00:00 -08, read at 17 Sep 2014 03:30:00 -08" in head
-    (tmp_path / "DIR" / watched.STATUS).write_text('{"state": "ended"}')
-    assert "had not ended" not in sections.head(briefing.gather(briefing.Request(tmp_path / "DIR")))
 
 
 @pytest.mark.parametrize("odd", [{"cells": 1}, {"cells": 2}, {"times": (0.0,)}, {"arrival": False}], ids=str)

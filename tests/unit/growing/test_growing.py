@@ -8,9 +8,8 @@ import growing_model
 import numpy as np
 import pytest
 from firetwin.errors import InputError
-from firetwin.jobs import watch
+from firetwin.growing import acceptance, model_log, states, watch, watched
 from firetwin.run import readers
-from firetwin.run.growing import acceptance, model_log, states, watched
 
 pytest.importorskip("netCDF4")
 KINDS = ("netcdf3", "netcdf4", "zarr")
@@ -258,3 +257,19 @@ def test_zarr_metadata_before_its_chunks_is_no_time(in_process, tmp_path):
     run.model.data["time"][2:] = [1200.0, 1800.0]
     run.poll(3)
     assert [seconds for seconds, _ in run.accepted()] == [0.0, 600.0]
+
+
+def test_pages_warn_that_the_model_had_not_ended(tmp_path):
+    run = watched.revision_folder(tmp_path, 1, 13)
+    times = "2014-09-17T10:00:00+00:00", "2014-09-17T11:30:00+00:00"
+    watched.append(
+        tmp_path, [], [watched.Accepted(1, 13, times[0], 0.0, "fire.nc", 12, "next", "", times[1])]
+    )
+    (tmp_path / watched.STATUS).write_text('{"state": "stalled"}')
+    ((head, text),) = readers.folder.warnings(run, "Etc/GMT+8")
+    assert head == "The model had not ended"
+    assert "state: stalled" in text
+    assert "17 Sep 2014 02:00:00 -08, read at 17 Sep 2014 03:30:00 -08" in text
+    (tmp_path / watched.STATUS).write_text('{"state": "ended"}')
+    assert readers.folder.warnings(run, "UTC") == []
+    assert readers.folder.warnings(tmp_path / "other", "UTC") == []

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 import whole_run
 from firetwin.errors import UsageError
-from firetwin.jobs import follow
-from firetwin.run import readers
-from firetwin.run.growing import known_run
+from firetwin.growing import follow, known_run
+from firetwin.run import content, readers
 from firetwin.shot.settings import scene_file
 
 SCENE = """\
@@ -39,7 +38,7 @@ def test_a_known_run_has_the_first_times_and_repeats_the_last(run, tmp_path):
     np.testing.assert_array_equal(arrival, np.where(all_times <= 600.0, all_times, np.nan))
     assert 0 < np.isfinite(arrival).sum() < np.isfinite(all_times).sum()
     np.testing.assert_array_equal(known.surface_fuel, run.surface_fuel)
-    assert (known_run.identity(tmp_path / "known"), known_run.identity(tmp_path / "run")) == ("film 1", "")
+    assert (content.identity(tmp_path / "known"), content.identity(tmp_path / "run")) == ("film 1", "")
 
 
 def test_a_known_run_that_reaches_the_end_repeats_nothing(run, tmp_path):

@@ -25,7 +25,14 @@ NEVER_BPY = (
     *("firetwin.cli", "firetwin.command", "firetwin.commands", "firetwin.data"),
     *("firetwin.run", "firetwin.stations", "firetwin.tiles"),
     *("firetwin.imaging", "firetwin.shot", "firetwin.smoke", "firetwin.auto_framing"),
-    *("firetwin.jobs", "firetwin.farm", "firetwin.bench", "firetwin.brief", "firetwin.allocation"),
+    *(
+        "firetwin.jobs",
+        "firetwin.farm",
+        "firetwin.bench",
+        "firetwin.brief",
+        "firetwin.allocation",
+        "firetwin.growing",
+    ),
     *("firetwin.camera_import", "firetwin.delivery", "firetwin.edit", "firetwin.export"),
     *(
         f"firetwin.render.{name}"

@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 from firetwin_core.run import Run
 
-from ... import files
+from .. import files
+from ..run import content
 
 _ARRIVAL = "fuel_arrival_time"
 _FRAMES = "{:06d}"
-IDENTITY = "film.json"
 
 
 def write(run: Run, count: int, until: float, out: Path, identity: str) -> None:
@@ -57,15 +57,7 @@ def write(run: Run, count: int, until: float, out: Path, identity: str) -> None:
     description.pop("interval_s", None)
     description["times_s"] = times
     files.write_text(out / "run.toml", format_toml(description))
-    files.write_text(out / IDENTITY, json.dumps(identity))
-
-
-def identity(folder: Path) -> str:
-    """Return the identity of a known run; "" for other runs."""
-    try:
-        return str(json.loads((folder / IDENTITY).read_text(encoding="utf-8")))
-    except (OSError, ValueError):
-        return ""
+    files.write_text(out / content.IDENTITY, json.dumps(identity))
 
 
 def next_time(times: np.ndarray, moment: float, ended: bool) -> int:

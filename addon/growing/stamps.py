@@ -18,7 +18,7 @@ def scan(path: Path) -> Stamps:
 
     A zarr store has the total size of its files, and their last modification time.
     """
-    from ..models import zarr_store
+    from ..run.models import zarr_store
 
     try:
         if path.is_file():

@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from ... import files
-from ...html_text import quote
-from ...progress import duration
+from .. import files
+from ..html_text import quote
+from ..progress import duration
 from . import watched
 from .watched import Accepted
 

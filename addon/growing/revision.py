@@ -17,10 +17,10 @@ import numpy as np
 from firetwin_core import run
 from numpy.typing import NDArray
 
-from ... import files
-from ...errors import InputError, input_error, reading, writing
-from ..models import netcdf, write
-from ..models.model import Model
+from .. import files
+from ..errors import InputError, input_error, reading, writing
+from ..run.models import netcdf, write
+from ..run.models.model import Model
 from . import watched
 from .watched import Accepted
 

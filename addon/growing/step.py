@@ -12,8 +12,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from ...errors import Error, input_error
-from ..models.model import Model, Options
+from ..errors import Error, input_error
+from ..run.models.model import Model, Options
 from . import acceptance, revision, stamps, watched
 from .acceptance import Listed
 from .watched import Accepted
@@ -83,7 +83,7 @@ def run(
         From the outcome of the step before.
     """
     os.environ[LOCKS] = "FALSE"
-    from .. import readers
+    from ..run import readers
 
     before = watched.times(folder)
     paths = readers.gathered([source, *extra])
@@ -144,7 +144,7 @@ def run(
 
 
 def _open(paths: list[Path], options: Options) -> Model:
-    from .. import readers
+    from ..run import readers
 
     model = readers.reader(paths).read(paths, options)
     if len(model.sources) != len(model.times):

@@ -8,8 +8,8 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from ... import files
-from ...errors import input_error
+from .. import files
+from ..errors import input_error
 
 TIMES, STATUS, PAGE = "times.json", "status.json", "index.html"
 FINAL = ("ended", "failed")

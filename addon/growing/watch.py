@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import Error, UsageError, input_error
+from ..jobs import worker
 from ..progress import MessageCallback, Progress, no_message, silent
-from ..run.growing import model_log, stamps, states, status_page, watched
-from ..run.growing.step import Outcome
-from . import worker
+from . import model_log, stamps, states, status_page, watched
+from .step import Outcome
 
 _PATIENCE = 300.0  # s without progress in reading, after which a step is ended
 _REST = 4.0  # pause after a step, times its duration: reading takes a fifth of the time at most
@@ -90,8 +90,8 @@ class _Watch:
     """State of a watch between polls."""
 
     def __init__(self, request: WatchRequest, tell: MessageCallback) -> None:
-        from ..run.growing import revision
         from ..run.models.model import Options
+        from . import revision
 
         self.request, self.tell = request, tell
         options = request.start, request.at, request.projection
@@ -211,9 +211,9 @@ def in_process(
     tell: MessageCallback = no_message,
 ) -> dict[str, Any]:
     """Worker side of a step."""
-    from ..run.growing import step
     from ..run.models import heartbeat
     from ..run.models.model import Options
+    from . import step
 
     start, at, projection, name, zone = options
     further = [Path(each) for each in extra]

@@ -8,8 +8,10 @@ from pathlib import Path
 
 import bpy
 
-from ..run.growing import watched
-from . import working
+from ..progress import count
+from ..ui import working
+from ..ui.text import draw_paragraph
+from . import watched
 
 _PERIOD = 5.0  # s between readings
 _SHORT = 0.5  # s between checks of the thread
@@ -57,7 +59,7 @@ def start(folder: Path, read: Growth) -> None:
         bpy.app.timers.register(_tick, first_interval=_PERIOD, persistent=True)
 
 
-def stop() -> None:
+def unregister() -> None:
     """Stop looking, and forget all states."""
     global _folder
     _folder = None
@@ -67,21 +69,17 @@ def stop() -> None:
     _latest.clear()
 
 
-def describe(folder: Path) -> str:
-    """Describe a growing run in one line; "" for other runs."""
-    growth = _latest.get(folder)
-    if growth is None:
-        return ""
-    return f"The model is {growth.state}; newest time {growth.newest}" if growth.newest else "No time yet"
-
-
-def new_times(folder: Path) -> int:
-    """Return the number of times that came after the run was read; all of them if the model started again."""
+def draw_run(context: bpy.types.Context, layout: bpy.types.UILayout, folder: Path) -> None:
+    """Draw the state of a growing run, and a button to read its new times."""
     growth, read = _latest.get(folder), _read.get(folder)
-    if growth is None or read is None or growth.revision == read.revision:
-        return 0
-    before = read.revision[1] if read.revision[0] == growth.revision[0] else 0
-    return growth.revision[1] - before
+    if growth is None:
+        return
+    text = f"The model is {growth.state}; newest time {growth.newest}" if growth.newest else "No time yet"
+    draw_paragraph(context, layout.column(align=True), text, "TIME")
+    if read is not None and growth.revision != read.revision:
+        before = read.revision[1] if read.revision[0] == growth.revision[0] else 0  # 0: a restarted model
+        label = f"Read {count(growth.revision[1] - before, 'new time')}"
+        layout.operator("firetwin.inspect", text=label, icon="FILE_REFRESH")
 
 
 def look(folder: Path) -> Growth:

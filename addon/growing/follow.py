@@ -1,6 +1,6 @@
 """Follow job: renders the frames of a growing run as soon as the next model time exists.
 
-Each frame is rendered from the run as it was known at the next model time (`run.growing.known_run`), so that
+Each frame is rendered from the run as it was known at the next model time (`known_run`), so that
 it equals the frame that is rendered when the model has ended.
 """
 
@@ -19,17 +19,17 @@ from firetwin_core.run import Run
 
 from .. import files
 from ..errors import Error, UsageError
+from ..jobs import render, worker
+from ..jobs.render import RenderRequest, RenderResult
 from ..progress import MessageCallback, Progress, count, duration, no_message, silent
 from ..run import content, readers, times
-from ..run.growing import known_run, watched
 from ..shot import frames
 from ..shot.frames import Frames
 from ..shot.light import exposure
 from ..shot.schema.frame_list import FrameList
 from ..shot.settings import Settings
 from ..shot.source import ShotSource
-from . import render, worker
-from .render import RenderRequest, RenderResult
+from . import known_run, watched
 
 Wait = Callable[[float], None]
 _LATE = 60.0  # s without a sign of `firetwin watch`, after which that is reported

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 
 from .. import argument_types as types
-from ..command import RUNS, Command, add_origin
+from ..command import RUNS, Command, Extension, add_origin
 from ..progress import result, say
 
 _DETAIL = """\
@@ -53,7 +54,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
 
 def _run(arguments: argparse.Namespace) -> int:
     """Convert the output of a model that is still running."""
-    from ..jobs import watch
+    from . import watch
 
     source, *extra = arguments.run
     request = watch.WatchRequest(
@@ -74,4 +75,29 @@ def _run(arguments: argparse.Namespace) -> int:
     return 1 if state == "failed" else 0
 
 
+_FOLLOW = """\
+--follow films a run that `watch` writes. A frame is rendered when the next model time exists, from the times
+up to it, so that it equals the frame that --follow renders when the model has ended. Exposure is metered in
+the first frame and kept. Cameras that follow the fire are an error. Films are replaced as a whole."""
+
+
+def _add_follow(parser: argparse.ArgumentParser) -> None:
+    """Define the option of `render`."""
+    parser.add_argument(
+        "--follow",
+        action="store_true",
+        help="render each frame when the next model time of a growing run exists (see watch)",
+    )
+
+
+def _choose_job(arguments: argparse.Namespace, job: Callable) -> Callable:
+    """Replace the job of `render` if it follows a growing run."""
+    if not arguments.follow:
+        return job
+    from . import follow
+
+    return follow.run
+
+
 COMMAND = Command("watch", "convert the output of a model that is still running", _DETAIL, RUNS, _run, _add)
+EXTENSIONS = (Extension("render", _add_follow, amend=_choose_job, detail=_FOLLOW),)
