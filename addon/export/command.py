@@ -38,12 +38,15 @@ def _run(arguments: argparse.Namespace) -> None:
     from ..auto_framing import fitted_scene
     from ..progress import Reporter, result, say
     from . import job
+    from .request import ExportRequest
 
     source, smoke = fitted_scene.find_source(arguments), not arguments.no_smoke
-    options = job.ExportOptions(arguments.to, arguments.out, arguments.frames or "", arguments.geoid, smoke)
-    reporter = Reporter(arguments.to)
+    frames, reporter = arguments.frames or "", Reporter(arguments.to)
+    request = ExportRequest(
+        source, arguments.to, arguments.out, frames, arguments.geoid, smoke, reporter, say
+    )
     try:
-        made = job.run(source, options, reporter, say)
+        made = job.run(request)
     finally:
         reporter.close()
     for path in made:

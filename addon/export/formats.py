@@ -41,5 +41,10 @@ def known() -> dict[str, Format]:
 
 
 def writer(name: str) -> Callable[[ExportRequest], list[Path]]:
-    """Return the function that writes a format into the folder of a request, and lists the main files."""
-    return plugins.module(__package__, name).write
+    """Return the function that writes a format into the folder of a request, and lists the main files.
+
+    A format without `write` has `write_content`, which a worker process with Blender calls.
+    """
+    from . import scene_job
+
+    return getattr(plugins.module(__package__, name), "write", scene_job.run)

@@ -6,9 +6,8 @@ the credits. Trees and ground are as before the fire, with arrival times.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import firetwin_core
 import numpy as np
@@ -17,15 +16,12 @@ from .. import files
 from ..run import times
 from ..shot import picture_credits
 from ..stations.records import EXERCISE
-from . import fronts, gltf_cameras, gltf_forest, gltf_fronts, gltf_terrain, places, scene_job, viewer_page
+from . import fronts, gltf_cameras, gltf_forest, gltf_fronts, gltf_terrain, places, viewer_page
 from .gltf_document import TO_Y_UP, Document
 from .places import Place
 from .request import ExportRequest
 from .scene_content import SceneContent
 from .viewer_page import PageText
-
-if TYPE_CHECKING:
-    from .scene_job import SceneExport
 
 FORMAT = {"title": "glTF", "help": "glTF scene with instanced trees, and a viewer page"}
 ORDER = 20
@@ -33,41 +29,36 @@ NAME, PAGE = "scene.glb", "index.html"
 _SYNTHETIC = "This scene is synthetic, not the output of a fire model."
 
 
-def write(request: ExportRequest) -> list[Path]:
-    """Write the scene and its page into the folder of a request, in a worker process with Blender."""
-    return scene_job.run(replace(request, smoke=False), "gltf")
-
-
-def write_content(content: SceneContent, export: SceneExport) -> list[Path]:
+def write_content(content: SceneContent, request: ExportRequest) -> list[Path]:
     """Write the scene of a scene's content, and its page; return both files."""
-    found = places.find(export.shot)
-    scene = encode(content, export, found)
-    page = viewer_page.html(scene, _page_text(export, found))
-    (export.folder / NAME).write_bytes(scene)
-    files.write_text(export.folder / PAGE, page)
-    return [export.folder / NAME, export.folder / PAGE]
+    found = places.find(request.shot)
+    scene = encode(content, request, found)
+    page = viewer_page.html(scene, _page_text(request, found))
+    (request.folder / NAME).write_bytes(scene)
+    files.write_text(request.folder / PAGE, page)
+    return [request.folder / NAME, request.folder / PAGE]
 
 
-def encode(content: SceneContent, export: SceneExport, found: list[Place]) -> bytes:
+def encode(content: SceneContent, request: ExportRequest, found: list[Place]) -> bytes:
     """Encode the scene as .glb."""
-    shot = export.shot
+    shot = request.shot
     first, last = (float(shot.run.times[at]) for at in (0, -1))
     document = Document(shot.run.name, picture_credits.of_shot(shot).text())
     gltf_terrain.add(document, shot, (first, last))
     gltf_forest.add(document, content, first)
     gltf_fronts.add(document, shot, fronts.of_shot(shot, content.frames.tolist()), first)
     gltf_cameras.add(document, content)
-    _add_places(document, export, found)
-    return document.encode({"firetwin": describe(content, export)})
+    _add_places(document, request, found)
+    return document.encode({"firetwin": describe(content, request)})
 
 
-def describe(content: SceneContent, export: SceneExport) -> dict[str, Any]:
+def describe(content: SceneContent, request: ExportRequest) -> dict[str, Any]:
     """Describe a scene: origin of the data, clock, credits and place on the Earth.
 
     Times in s count from `start_utc`, the start of the run. `gltf_to_ecef` is a matrix in glTF's order, by
     columns, from the file's positions to Earth-centred metres (EPSG:4978).
     """
-    shot, place = export.shot, export.georeference
+    shot, place = request.shot, request.georeference
     start = float(shot.run.times[0])
     matrix = place.matrix.copy()
     matrix[:3, :3] = matrix[:3, :3] @ TO_Y_UP.T
@@ -88,13 +79,13 @@ def describe(content: SceneContent, export: SceneExport) -> dict[str, Any]:
     }
 
 
-def _add_places(document: Document, export: SceneExport, found: list[Place]) -> None:
+def _add_places(document: Document, request: ExportRequest, found: list[Place]) -> None:
     """Append named places as nodes on the ground."""
     if not found:
         return
     parent = document.node("places")
     for place in found:
-        point = export.shot.ground.point(place.latitude, place.longitude)[0] @ TO_Y_UP.T
+        point = request.shot.ground.point(place.latitude, place.longitude)[0] @ TO_Y_UP.T
         extras = {
             "title": place.name,
             "kind": place.kind,
@@ -105,8 +96,8 @@ def _add_places(document: Document, export: SceneExport, found: list[Place]) -> 
         document.node(place.name, parent, translation=point.tolist(), extras=extras)
 
 
-def _page_text(export: SceneExport, found: list[Place]) -> PageText:
-    shot, place = export.shot, export.georeference
+def _page_text(request: ExportRequest, found: list[Place]) -> PageText:
+    shot, place = request.shot, request.georeference
     marks = [("SYNTHETIC", _SYNTHETIC)] if shot.run.synthetic else []
     if any(each.exercise for each in found):
         marks.append(("EXERCISE", f"{EXERCISE}."))

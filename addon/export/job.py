@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
 
-from ..errors import UsageError
 from ..jobs.tiles import selection
-from ..jobs.worker import Stop
-from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot import georeference
 from ..shot.georeference import Georeference
-from ..shot.schema.frame_list import FrameList
-from ..shot.source import ShotSource
 from ..staging import staging
 from . import formats
 from .request import ExportRequest
@@ -20,38 +15,7 @@ from .request import ExportRequest
 _HEIGHTS = ("export", 'firetwin export with terrain.height_source = "tiles"')
 
 
-@dataclass(frozen=True)
-class ExportOptions:
-    """Options of an export.
-
-    Attributes
-    ----------
-    name
-        Name of the format (see `formats.known`).
-    out
-        Folder to write.
-    frames
-        List of frames, such as ``1-48:4``; empty: all.
-    geoid_m
-        Height of the geoid above the ellipsoid, m; None: see `georeference.resolve`.
-    smoke
-        True if formats with volumes write the smoke.
-    """
-
-    name: str
-    out: Path
-    frames: str = ""
-    geoid_m: float | None = None
-    smoke: bool = True
-
-
-def run(
-    source: ShotSource,
-    options: ExportOptions,
-    progress: Progress = silent,
-    tell: MessageCallback = no_message,
-    stop: Stop | None = None,
-) -> list[Path]:
+def run(request: ExportRequest) -> list[Path]:
     """Write a shot; returns the main files.
 
     Raises
@@ -61,21 +25,15 @@ def run(
     InputError
         The terms of tiles that give the heights of cameras do not allow exports.
     """
+    source = request.source
     if source.settings().terrain.height_source == "tiles":
-        selection.prepare(source, (), progress, tell, stop, uses=[_HEIGHTS])
-    shot = source.shot()
-    try:
-        frames = FrameList(options.frames).frames(shot.frames.count)
-    except ValueError as error:
-        raise UsageError(f"--frames: {error}") from None
-    place = georeference.resolve(shot, options.geoid_m)
-    tell(_describe(place))
-    with staging(options.out) as folder:
-        request = ExportRequest(
-            source, shot, tuple(frames), place, folder, options.smoke, progress, tell, stop
-        )
-        made = [*formats.writer(options.name)(request), place.write(folder)]
-        return [options.out / path.relative_to(folder) for path in made]
+        selection.prepare(source, (), request.progress, request.tell, request.stop, uses=[_HEIGHTS])
+    with staging(request.folder) as folder:
+        staged = replace(request, folder=folder)
+        _ = staged.frames  # reports an invalid list before anything is written
+        staged.tell(_describe(staged.georeference))
+        made = [*formats.writer(request.name)(staged), staged.georeference.write(folder)]
+        return [request.folder / path.relative_to(folder) for path in made]
 
 
 def _describe(place: Georeference) -> str:

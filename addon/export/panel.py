@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import functools
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
@@ -16,6 +16,7 @@ from ..ui.sidebar import SidebarPanel
 from ..ui.working import Working
 from . import formats
 from . import job as export_job
+from .request import ExportRequest
 
 _ITEMS = tuple((name, each.title, each.help) for name, each in formats.known().items())
 
@@ -57,9 +58,10 @@ class FIRETWIN_OT_export_to(Working, bpy.types.Operator):
         out = bpy.path.abspath(self.directory) or scene_file.output_folder(panel, f"export_{name}")
         if not out:
             raise Error(render.NO_OUTPUT)
-        options = export_job.ExportOptions(name, Path(out), panel.export_frames, smoke=panel.export_smoke)
-        work = functools.partial(export_job.run, choice.from_panel(panel), options)
-        made = yield InThread("exporting", work)
+        request = ExportRequest(
+            choice.from_panel(panel), name, Path(out), panel.export_frames, smoke=panel.export_smoke
+        )
+        made = yield InThread("exporting", lambda **callbacks: export_job.run(replace(request, **callbacks)))
         return f"Wrote {count(len(made), 'file')} to {out}"
 
 

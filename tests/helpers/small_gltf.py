@@ -9,9 +9,6 @@ import numpy as np
 from firetwin.export import gltf, tracks
 from firetwin.export.request import ExportRequest
 from firetwin.export.scene_content import CameraMove, Plants, Prototype, SceneContent
-from firetwin.export.scene_job import SceneExport
-from firetwin.progress import silent
-from firetwin.shot import georeference
 from firetwin.shot.shot import Shot
 from firetwin.shot.source import ShotSource
 from small_run import RUN_TOML, small_fields, write_field
@@ -84,10 +81,7 @@ def write(folder: Path) -> tuple[Shot, SceneContent, ExportRequest, Path, Path]:
     for name, values in (small_fields() | {"fuel_arrival_time": arrival}).items():
         write_field(folder / "run", name, values, "npy")
     (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
-    source = ShotSource(scene=str(folder / "scene.toml"))
-    shot = source.shot()
-    place = georeference.resolve(shot)
-    request = ExportRequest(source, shot, (1, 2, 3, 4), place, folder)
-    content = make_content(shot, request)
-    scene, page = gltf.write_content(content, SceneExport(shot, place, folder, silent))
-    return shot, content, request, scene, page
+    request = ExportRequest(ShotSource(scene=str(folder / "scene.toml")), "gltf", folder)
+    content = make_content(request.shot, request)
+    scene, page = gltf.write_content(content, request)
+    return request.shot, content, request, scene, page

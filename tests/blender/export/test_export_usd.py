@@ -3,6 +3,7 @@
 import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import mathutils
@@ -10,11 +11,9 @@ import numpy as np
 import pytest
 from firetwin.errors import Error
 from firetwin.export import read_scene, usd
+from firetwin.export.request import ExportRequest
 from firetwin.export.scene_content import SmokeLayer
-from firetwin.export.scene_job import SceneExport
-from firetwin.progress import silent
 from firetwin.scene import build
-from firetwin.shot import georeference
 from firetwin.shot.shot import Shot
 from firetwin_core import volume
 
@@ -59,8 +58,8 @@ def export(settings, run, stage, out):
     file.parent.mkdir()
     write_voxel(file)
     content = read_scene.read(shot, stage, FRAMES, [SmokeLayer("smoke", {2: file})])
-    place = georeference.resolve(shot, -24.9)
-    made = usd.write_content(content, SceneExport(shot, place, out, silent))
+    request = ExportRequest(SimpleNamespace(shot=lambda: shot), "usd", out, geoid_m=-24.9)
+    made = usd.write_content(content, request)
     assert made == [out / "scene.usda"]
     graph = bpy.context.evaluated_depsgraph_get()
     trees = [
@@ -78,7 +77,7 @@ def export(settings, run, stage, out):
         camera.data.lens,
         camera.data.angle_x,
     )
-    return content, place, out, shown
+    return content, request.georeference, out, shown
 
 
 def write_voxel(file):

@@ -67,11 +67,9 @@ def request_of(scene, tmp_path):
     """Return a function that makes the request of a format: request_of(frames)."""
 
     def make(*frames):
-        source = ShotSource(scene=str(scene))
-        shot = source.shot()
         folder = tmp_path / "made"
         folder.mkdir(exist_ok=True)
-        return ExportRequest(source, shot, frames or (1, 2, 3, 4), georeference.resolve(shot), folder)
+        return ExportRequest(ShotSource(scene=str(scene)), "kmz", folder, ",".join(map(str, frames)))
 
     return make
 

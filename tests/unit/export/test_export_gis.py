@@ -18,7 +18,6 @@ from firetwin.export.gis_rasters import Raster
 from firetwin.export.request import ExportRequest
 from firetwin.imaging import map_symbols
 from firetwin.run import observations
-from firetwin.shot import georeference
 from firetwin.shot.source import ShotSource
 from pyproj import Transformer
 from small_run import RUN_TOML
@@ -75,11 +74,9 @@ def request_(make_run, tmp_path):
     (tmp_path / "places.csv").write_text(
         'name,latitude,longitude\n"{}",38.903,-120.592\n'.format(HOSTILE.replace('"', '""'))
     )
-    source = ShotSource(scene=str(tmp_path / "scene.toml"))
-    shot = source.shot()
     folder = tmp_path / "made"
     folder.mkdir()
-    return ExportRequest(source, shot, (1, 2, 3, 4), georeference.resolve(shot), folder)
+    return ExportRequest(ShotSource(scene=str(tmp_path / "scene.toml")), "gis", folder)
 
 
 @pytest.fixture

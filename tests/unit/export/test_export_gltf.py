@@ -13,9 +13,7 @@ import numpy as np
 import pytest
 import small_gltf
 from firetwin.export import fronts, gltf, gltf_forest, gltf_terrain, viewer_page
-from firetwin.export.scene_job import SceneExport
 from firetwin.export.viewer_page import PageText
-from firetwin.progress import silent
 from page_parts import PageParts
 from PIL import Image
 from pyproj import Transformer
@@ -251,8 +249,7 @@ def test_a_still_or_flat_camera_has_no_animation_and_its_own_lens(small):
         still, name="flat", projection="orthographic", swath=(400.0, 300.0), focal_length=np.zeros(4)
     )
     zoomed = replace(still, name="zoom", focal_length=np.array([20.0, 30.0, 40.0, 50.0]))
-    export = SceneExport(request.shot, request.georeference, request.folder, silent)
-    found = Glb(gltf.encode(replace(whole, cameras=[flat, zoomed], plants=[]), export, []))
+    found = Glb(gltf.encode(replace(whole, cameras=[flat, zoomed], plants=[]), request, []))
     assert "animations" not in found.json
     one, two = found.json["cameras"]
     assert (one["orthographic"]["xmag"], one["orthographic"]["ymag"]) == (200.0, 150.0)

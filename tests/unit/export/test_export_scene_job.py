@@ -17,6 +17,6 @@ def test_tiles_whose_terms_forbid_exports_are_refused_by_name(monkeypatch, tmp_p
     settings = replace(settings, tiles=replace(settings.tiles, sources=(source,), vegetation="tileset"))
     monkeypatch.setattr(ShotSource, "settings", lambda self: settings)
     monkeypatch.setattr(worker, "run", lambda *_, **__: pytest.fail("a process was started"))
-    request = ExportRequest(ShotSource(), None, (1,), None, tmp_path)
+    request = ExportRequest(ShotSource(), "usd", tmp_path)
     with pytest.raises(InputError, match=f"{name}.* does not allow that tiles are written to other formats"):
-        scene_job.run(request, "usd")
+        scene_job.run(request)
