@@ -1,7 +1,7 @@
 """Camera poses in the conventions of other programs, from our camera-to-world matrices.
 
 Ours: x right, y up, z backwards (OpenGL, Blender, nerfstudio); the first pixel has its centre at (0.5, 0.5),
-as in COLMAP and nerfstudio. OpenCV: x right, y down, z forwards; the first pixel has its centre at (0, 0).
+as in COLMAP and nerfstudio. OpenCV: x right, y down, z forwards.
 """
 
 from __future__ import annotations
@@ -12,21 +12,13 @@ from numpy.typing import NDArray
 from ..geometry.quaternion import quaternions
 
 Matrix = NDArray[np.float64]
-OPENCV_CENTRE = 0.5
-"""Pixels, from the centre of the first pixel in OpenCV's coordinates to the centre in ours."""
-
 _TO_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
-
-
-def opencv_to_world(to_world: Matrix) -> Matrix:
-    """Turn our camera-to-world matrix (4, 4) into one for OpenCV's camera axes."""
-    return np.asarray(to_world, np.float64) @ _TO_OPENCV
 
 
 def world_to_opencv(to_world: Matrix) -> Matrix:
     """Compute the world-to-camera matrix (4, 4) with OpenCV's camera axes of our camera-to-world matrix."""
     inverse = np.eye(4)
-    pose = opencv_to_world(to_world)
+    pose = np.asarray(to_world, np.float64) @ _TO_OPENCV
     inverse[:3, :3] = pose[:3, :3].T
     inverse[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]
     return inverse

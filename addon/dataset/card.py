@@ -72,15 +72,8 @@ def _header(folder: Path, about: About, number: int) -> Iterator[str]:
 
 def _configuration(folder: Path) -> list[str]:
     """Return the data files of each split, for the library `datasets`."""
-    names = {path.name.split("-")[0] for path in (folder / "parquet").glob("*.parquet")}
-    if names:
-        found = {name: f"parquet/{name}-*.parquet" for name in names}
-    else:
-        found = {
-            path.parent.name: f"imagefolder/{path.parent.name}/**"
-            for path in (folder / "imagefolder").glob("*/metadata.jsonl")
-        }
-    return [line for name in sorted(found) for line in (f"  - split: {name}", f"    path: {found[name]}")]
+    found = sorted(path.parent.name for path in (folder / "imagefolder").glob("*/metadata.jsonl"))
+    return [line for name in found for line in (f"  - split: {name}", f"    path: imagefolder/{name}/**")]
 
 
 def _counts(about: About, samples: Sequence[Truth]) -> str:

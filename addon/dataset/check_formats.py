@@ -1,4 +1,4 @@
-"""Check of the formats of a data set: boxes of COCO, YOLO and VOC are within half a pixel of the truth."""
+"""Check of the formats of a data set: boxes of COCO and YOLO are within half a pixel of the truth."""
 
 from __future__ import annotations
 
@@ -10,17 +10,16 @@ from typing import Any
 from . import rle
 from .check_labels import differs
 from .findings import REWRITE, Finding
-from .formats import coco, common, voc, yolo
-from .truth import CATEGORIES, Annotation, Box, Truth, stem
+from .formats import coco, common, yolo
+from .truth import Annotation, Box, Truth, stem
 
 KIND = "formats"
-_IDS = {each.name: each.id for each in CATEGORIES}
 Labels = Sequence[tuple[int, Box]]  # category and box
 
 
 def check(folder: Path, samples: Sequence[Truth]) -> Iterator[Finding]:
     """Compare the files of each written format with the metadata."""
-    for name, faults in (("coco", _coco), ("yolo", _yolo), ("voc", _voc)):
+    for name, faults in (("coco", _coco), ("yolo", _yolo)):
         for fault in faults(folder, samples):
             yield Finding(KIND, f"{fault}; {REWRITE.format(folder=folder, name=name)}")
 
@@ -37,19 +36,6 @@ def _yolo(folder: Path, samples: Sequence[Truth]) -> Iterator[str]:
             yield f"{path}: is missing or damaged"
             continue
         yield from _compare(path, [(kind + 1, box) for kind, box in found], sample)
-
-
-def _voc(folder: Path, samples: Sequence[Truth]) -> Iterator[str]:
-    if not (folder / voc.FOLDER).is_dir():
-        return
-    for sample in samples:
-        path = Path(voc.FOLDER) / "Annotations" / f"{stem(sample.index)}.xml"
-        try:
-            found = voc.boxes(folder / path)
-        except (OSError, ValueError):
-            yield f"{path}: is missing or damaged"
-            continue
-        yield from _compare(path, [(_IDS.get(name, 0), box) for name, box in found], sample)
 
 
 def _coco(folder: Path, samples: Sequence[Truth]) -> Iterator[str]:

@@ -18,7 +18,7 @@ has a picture, its twin without smoke, alpha of smoke, depth, classes, a thermal
   firetwin dataset PLAN.toml --out DIR              make or continue the data set, with its formats and report
   firetwin dataset PLAN.toml --out DIR --estimate   print time, size and rejected cameras; make nothing
   firetwin dataset PLAN.toml --out DIR --only 0137  make these samples alone
-  firetwin dataset formats DIR --format yolo,voc    write a finished data set in other formats
+  firetwin dataset formats DIR --format yolo,hf     write a finished data set in other formats
   firetwin dataset check DIR                        check files, hashes, labels, formats and splits
   firetwin dataset draw DIR --out FOLDER            draw the labels of samples onto their pictures
 
@@ -46,7 +46,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
     make.add_argument("--json", action="store_true", help="write the estimate as JSON")
     formats = add_verb(verbs, "formats", "write a finished data set in other formats")
     for each in (make, formats):
-        help = f"formats of the labels, such as coco,yolo,voc, or all ({_FORMATS})"
+        help = f"formats of the labels, such as coco,yolo,hf, or all ({_FORMATS})"
         each.add_argument("--format", metavar="LIST", default=_FORMATS, help=help)
     check = add_verb(verbs, "check", "check a finished data set; the exit status is 1 if it has faults")
     draw = add_verb(verbs, "draw", "draw the labels of samples onto their pictures")

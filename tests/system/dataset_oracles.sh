@@ -8,7 +8,7 @@ folder=${FIRETWIN_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/firetwin}/dataset_oracl
 if [[ ! -f $folder/complete ]]; then
   rm -rf "$folder"
   .venv/bin/python -m pip install -q --no-warn-conflicts --target "$folder" 'numpy>=2,<2.4' pycocotools==2.0.11 pycolmap==4.2.1 \
-    mlcroissant==1.1.1 webdataset==1.0.2 datasets==5.2.0 pyarrow==26.0.1 globox==2.9.0
+    mlcroissant==1.1.1 datasets==5.2.0 globox==2.9.0
   touch "$folder/complete"
 fi
 HF_HUB_OFFLINE=1 PYTHONPATH=$folder .venv/bin/python -m pytest -q -rs -p no:cacheprovider -o budget_factor=10 \

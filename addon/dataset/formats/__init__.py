@@ -6,7 +6,6 @@ after all of it is written (see `staging`). So paths in its files are relative t
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,33 +29,39 @@ class Format:
     ----------
     help
         Content and place of the files, in one line.
-    package
-        Package that the format needs; "" if it needs none.
     """
 
     help: str
-    package: str = ""
 
 
 FORMATS = {name: Format(**each) for name, each in plugins.declared(Path(__file__).parent, "FORMAT").items()}
 
 
+_CONVERTERS = {
+    "parquet": "write hf, and convert it with Dataset.to_parquet of the library datasets (docs/datasets.md)",
+    "tum": "write colmap or nerfstudio, which have the same poses",
+    "voc": "write coco, and convert it: pip install globox; globox convert -f coco -F pascalvoc FILE voc",
+    "webdataset": "pack the files of a sample with webdataset.ShardWriter (docs/datasets.md)",
+}
+"""Remedies for formats of former versions."""
+
+
 def names(text: str) -> tuple[str, ...]:
-    """Split a list of formats such as ``coco,yolo``; "all" stands for each that this installation can write.
+    """Split a list of formats such as ``coco,yolo``; "all" stands for each.
 
     Raises
     ------
     UsageError
-        A format is unknown, or its package is missing or does not load.
+        A format is unknown.
     """
     if text == "all":
-        return tuple(name for name in FORMATS if not _fault(name))
+        return tuple(FORMATS)
     found = tuple(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
     for name in found:
+        if name in _CONVERTERS:
+            raise UsageError(f"firetwin does not write {name}; {_CONVERTERS[name]}")
         if name not in FORMATS:
             raise UsageError(f'there is no format "{name}"; choose from {", ".join(FORMATS)}, all')
-        if fault := _fault(name):
-            raise UsageError(fault)
     return found
 
 
@@ -76,16 +81,3 @@ def write(set_folder: Path, samples: Sequence[Truth], formats: Iterable[str]) ->
     for name in formats:
         with staging(set_folder) as out:
             writer(name)(set_folder, samples, out)
-
-
-def _fault(name: str) -> str:
-    """Return why a format cannot be written: its package is missing, or needs another NumPy. "" if it can."""
-    package = FORMATS[name].package
-    try:
-        if package:
-            importlib.import_module(package)
-    except ModuleNotFoundError:
-        return f"the format {name} needs {package}; install it with: pip install {package}"
-    except ImportError as error:
-        return f"the format {name} needs {package}, which does not load: {error}; install another version"
-    return ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,6 @@ THINGS = tuple(each for each in CATEGORIES if each.has_instances)
 """Categories with boxes; their position is the class index of formats that count from 0."""
 UNSPLIT = "all"
 """Name of the only split of a set without splits."""
-SHARD_BYTES = 1_000_000_000
 PICTURE = "images"
 _ORDER = ("train", "val", "test")
 
@@ -81,26 +80,6 @@ def link(source: Path, path: Path) -> None:
     """Give a file a second name in a folder that may not exist yet."""
     path.parent.mkdir(parents=True, exist_ok=True)
     files.link_or_copy(source, path)
-
-
-def shards(folder: Path, samples: Sequence[Truth], kinds: Sequence[str] = ()) -> list[list[Truth]]:
-    """Divide samples, in order, so that the files of a part have about `SHARD_BYTES`.
-
-    Parameters
-    ----------
-    kinds
-        Kinds of the files that count; all if empty.
-    """
-    parts: list[list[Truth]] = []
-    size = SHARD_BYTES
-    for truth in samples:
-        if size >= SHARD_BYTES:
-            parts.append([])
-            size = 0
-        parts[-1].append(truth)
-        used = [path for kind, path in truth.files.items() if not kinds or kind in kinds]
-        size += sum((folder / path).stat().st_size for path in used)
-    return parts
 
 
 def _place(split: str) -> tuple[int, str]:

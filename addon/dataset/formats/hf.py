@@ -34,7 +34,17 @@ def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
 
 def row(truth: Truth) -> dict[str, Any]:
     """Return the row of a sample: file name, boxes, and the facts by which users select samples."""
-    return {"file_name": PurePosixPath(common.picture(truth)).name, "objects": objects(truth)} | facts(truth)
+    return {
+        "file_name": PurePosixPath(common.picture(truth)).name,
+        "objects": _objects(truth),
+        "index": truth.index,
+        "place": truth.groups.get("place", ""),
+        "run": truth.groups.get("run", ""),
+        "camera": truth.groups.get("camera", ""),
+        "utc": truth.utc,
+        "negative": truth.is_negative,
+        "seconds_since_ignition": _float(truth.seconds_since_ignition),
+    }
 
 
 def _gaps(found: dict[str, Any]) -> int:
@@ -43,27 +53,13 @@ def _gaps(found: dict[str, Any]) -> int:
     return sum(all(value is None for value in column) for column in columns)
 
 
-def objects(truth: Truth) -> dict[str, list[Any]]:
-    """Return the boxes of a sample as lists."""
+def _objects(truth: Truth) -> dict[str, list[Any]]:
     return {
         "bbox": [[float(side) for side in common.corner_and_size(each.box)] for each in truth.annotations],
         "category": [common.class_index(each) for each in truth.annotations],
         "name": [_NAMES[each.category] for each in truth.annotations],
         "distance_m": [_float(each.distance_m) for each in truth.annotations],
         "visible_fraction": [float(each.visible_fraction) for each in truth.annotations],
-    }
-
-
-def facts(truth: Truth) -> dict[str, Any]:
-    """Return the facts by which users select samples."""
-    return {
-        "index": truth.index,
-        "place": truth.groups.get("place", ""),
-        "run": truth.groups.get("run", ""),
-        "camera": truth.groups.get("camera", ""),
-        "utc": truth.utc,
-        "negative": truth.is_negative,
-        "seconds_since_ignition": _float(truth.seconds_since_ignition),
     }
 
 

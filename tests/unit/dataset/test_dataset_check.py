@@ -22,7 +22,7 @@ def original(tmp_path_factory):
     folder = tmp_path_factory.mktemp("original")
     labelled.data_set(folder, COUNT)
     about.write(folder, about.About(count=COUNT, split_by="place"))
-    finish.write(folder, ["coco", "yolo", "voc"])
+    finish.write(folder, ["coco", "yolo"])
     return folder
 
 
@@ -138,7 +138,7 @@ def test_a_moved_box_is_found(folder):
     change(folder, 1, annotations=(moved, *sample.annotations[1:]))
     found = faults(folder)
     assert any("its mask" in text and "meta/000001.json" in text for text in found)
-    for name in ("coco", "yolo", "voc"):
+    for name in ("coco", "yolo"):
         remedy = f"firetwin dataset formats {folder} --format {name}"
         assert any("0.5 pixels off" in text and remedy in text for text in found)
 
@@ -170,7 +170,6 @@ def test_pixels_and_ids_must_agree_with_the_masks(folder):
     [
         ("labels/000004.txt", "1 ", "0 ", "has other labels for sample 4"),
         ("labels/000004.txt", "1 ", "smoke ", "is missing or damaged"),
-        ("voc/Annotations/000004.xml", "</object>", "", "is missing or damaged"),
         (
             "annotations/instances_test.json",
             '"id":6,',
@@ -283,8 +282,7 @@ def test_samples_that_the_labels_and_the_sensors_wrote_have_no_faults(tmp_path):
         made, drawn = labels.label(rendered, plain_samples.flat_place(), index)
         sensed = sensor.apply(rendered, sensor.SensorSettings(), seeds)
         files.write(tmp_path, replace(made, groups={"run": "king"}), drawn, rendered, sensed)
-    names = [name for name in formats.FORMATS if name != "parquet"]
-    finish.write(tmp_path, names)
+    finish.write(tmp_path, formats.FORMATS)
     samples = finish.read_samples(tmp_path)
     assert [len(sample.annotations) for sample in samples] == [2, 0]
     assert not faults(tmp_path)

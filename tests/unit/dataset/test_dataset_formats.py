@@ -1,34 +1,31 @@
 """Formats of data sets: boxes, masks and poses of each file agree with the truth."""
 
 import json
-import tarfile
 from dataclasses import replace
-from unittest.mock import Mock
 
 import labelled
 import numpy as np
 import pytest
 from firetwin.dataset import files, formats, rle
-from firetwin.dataset.formats import coco, colmap, common, hf, nerfstudio, parquet, tum, voc, webdataset, yolo
+from firetwin.dataset.formats import coco, colmap, common, hf, nerfstudio, yolo
 from firetwin.dataset.truth import CATEGORIES, Truth, stem
 from firetwin.errors import InputError, UsageError
 from firetwin.geometry.quaternion import matrices
 from PIL import Image
 
 POSE = labelled.camera(1)
-NAMES = [name for name in formats.FORMATS if name != "parquet"]
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("set")
     samples = labelled.data_set(folder)
-    formats.write(folder, samples, NAMES)
+    formats.write(folder, samples, formats.FORMATS)
     return folder, samples
 
 
 def test_each_format_is_a_module_that_writes():
-    modules = (coco, colmap, hf, nerfstudio, parquet, tum, voc, webdataset, yolo)
+    modules = (coco, colmap, hf, nerfstudio, yolo)
     assert {module.__name__.rpartition(".")[2] for module in modules} == set(formats.FORMATS)
     assert all(callable(module.write) for module in modules)
 
@@ -72,23 +69,13 @@ def test_panoptic_segments_cover_each_pixel_once(made):
         assert len(things) == len(next(t for t in samples if t.index == each["image_id"]).annotations)
 
 
-def test_yolo_and_voc_boxes_come_back(made):
+def test_yolo_boxes_come_back(made):
     folder, samples = made
     for truth in samples:
         lines = (folder / f"labels/{stem(truth.index)}.txt").read_text().splitlines()
         read = [yolo.box(line, truth.camera) for line in lines]
         np.testing.assert_allclose([box for _, box in read], boxes_of_truth(truth), atol=1e-4)
         assert [kind + 1 for kind, _ in read] == [each.category for each in truth.annotations]
-        found = voc.boxes(folder / f"voc/Annotations/{stem(truth.index)}.xml")
-        assert [box for _, box in found] == boxes_of_truth(truth)
-
-
-def test_the_first_pixel_of_voc_is_1_1(made):
-    folder, samples = made
-    text = (folder / f"voc/Annotations/{stem(1)}.xml").read_text()
-    x0, _, x1, _ = samples[0].annotations[0].box
-    assert f"<xmin>{x0 + 1:g}</xmin>" in text
-    assert f"<xmax>{x1:g}</xmax>" in text
 
 
 def test_yolo_lists_each_picture_once_with_its_labels(made):
@@ -117,18 +104,6 @@ def test_rows_of_hugging_face_name_pictures_and_boxes(made):
             assert row["objects"]["category"] == [each.category - 1 for each in truth.annotations]
 
 
-def test_keys_of_webdataset_end_at_the_first_dot(made):
-    folder, samples = made
-    with tarfile.open(folder / "webdataset/test-000000.tar") as tar:
-        names = tar.getnames()
-        keys = {name.partition(".")[0] for name in names}
-        assert keys == {stem(truth.index) for truth in samples if truth.split == "test"}
-        meta = json.load(tar.extractfile(f"{max(keys)}.json"))
-    assert meta["index"] == int(max(keys))
-    assert f"{max(keys)}.jpg" in names
-    assert f"{max(keys)}.masks.png" in names
-
-
 def through_nerfstudio(folder, run, truth, point):
     index = json.loads((folder / f"nerfstudio/{run}/transforms.json").read_text())
     frame = next(one for one in index["frames"] if one["file_path"].endswith(truth.files["images"]))
@@ -147,20 +122,7 @@ def through_colmap(folder, run, truth, point):
     return cx + fx * x / z, cy + fy * y / z
 
 
-def through_tum(folder, run, truth, point):
-    def values(name):
-        lines = (folder / f"tum/{run}/{name}.txt").read_text().splitlines()
-        return next(line.split()[1:] for line in lines if line.startswith(f"{truth.index}.0 "))
-
-    tx, ty, tz, qx, qy, qz, qw = map(float, values("groundtruth"))
-    rotation = matrices(np.array([[qw, qx, qy, qz]]))[0]
-    x, y, z = rotation.T @ (point - [tx, ty, tz])
-    assert values("rgb") == [f"../../{truth.files['images']}"]
-    fx, fy, cx, cy = map(float, values("camera")[2:])
-    return cx + fx * x / z + 0.5, cy + fy * y / z + 0.5  # the first pixel of OpenCV has its centre at 0, 0
-
-
-@pytest.mark.parametrize("through", [through_nerfstudio, through_colmap, through_tum])
+@pytest.mark.parametrize("through", [through_nerfstudio, through_colmap])
 def test_poses_project_a_landmark_to_one_pixel(made, through):
     folder, samples = made
     for truth in samples:
@@ -174,25 +136,25 @@ def test_poses_project_a_landmark_to_one_pixel(made, through):
 def test_a_format_written_twice_has_equal_bytes(made, tmp_path):
     folder, samples = made
     labelled.data_set(tmp_path)
-    formats.write(tmp_path, samples, NAMES)
+    formats.write(tmp_path, samples, formats.FORMATS)
     for path in folder.rglob("*"):
         if path.is_file():
             assert path.read_bytes() == (tmp_path / path.relative_to(folder)).read_bytes(), path
 
 
-def test_names_of_formats_are_explained(monkeypatch):
+def test_names_of_formats_are_explained():
     assert formats.names("yolo, coco,yolo") == ("yolo", "coco")
-    assert set(formats.names("all")) >= set(NAMES)
+    assert formats.names("all") == tuple(formats.FORMATS)
     with pytest.raises(UsageError, match='no format "kitti"; choose from coco, yolo'):
         formats.names("kitti")
-    for error, words in (
-        (ModuleNotFoundError("No module named 'pyarrow'"), "pip install pyarrow"),
-        (ImportError("needs NumPy 2"), "does not load: needs NumPy 2; install another version"),
+    for name, remedy in (
+        ("voc", "globox convert"),
+        ("parquet", "to_parquet"),
+        ("webdataset", "ShardWriter"),
+        ("tum", "colmap"),
     ):
-        monkeypatch.setattr(formats.importlib, "import_module", Mock(side_effect=error))
-        assert "parquet" not in formats.names("all")
-        with pytest.raises(UsageError, match=words):
-            formats.names("parquet")
+        with pytest.raises(UsageError, match=f"does not write {name}; .*{remedy}"):
+            formats.names(name)
 
 
 def test_runs_with_similar_names_have_separate_folders():
@@ -204,23 +166,12 @@ def test_runs_with_similar_names_have_separate_folders():
     assert all(name.replace("_", "").isalnum() for name in found)
 
 
-def test_large_sets_are_divided_in_order(made, monkeypatch):
-    folder, samples = made
-    size = sum((folder / path).stat().st_size for path in samples[0].files.values())
-    monkeypatch.setattr(common, "SHARD_BYTES", 2 * size)
-    parts = common.shards(folder, samples)
-    assert len(parts) >= 3
-    assert [truth for part in parts for truth in part] == samples
-    assert all(parts)
-
-
 def test_a_set_without_splits_is_one_list(tmp_path):
     samples = [replace(truth, split="") for truth in labelled.data_set(tmp_path, 3)]
-    formats.write(tmp_path, samples, ["yolo", "coco", "webdataset"])
+    formats.write(tmp_path, samples, ["yolo", "coco"])
     assert len((tmp_path / "all.txt").read_text().split()) == 3
     assert "train: all.txt\nval: all.txt\n" in (tmp_path / "data.yaml").read_text()
     assert len(instances(tmp_path, "all")["images"]) == 3
-    assert (tmp_path / "webdataset/all-000000.tar").is_file()
 
 
 def test_a_failed_format_leaves_the_old_files(made, tmp_path):

@@ -1,6 +1,6 @@
 """Formats of data sets as other libraries read them.
 
-pycocotools and webdataset are members of the extra `test`; the others are large, or need NumPy 2:
+pycocotools is a member of the extra `test`; the others are large, or need NumPy 2:
 `tests/system/dataset_oracles.sh` installs them in a folder and runs these tests.
 """
 
@@ -16,7 +16,7 @@ from firetwin.dataset import formats
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("set")
     samples = labelled.data_set(folder)
-    formats.write(folder, samples, [name for name in formats.FORMATS if name != "parquet"])
+    formats.write(folder, samples, formats.FORMATS)
     return folder, samples
 
 
@@ -42,17 +42,19 @@ def test_pycocotools_decodes_the_masks(made):
         np.testing.assert_array_equal(coco.annToMask(each), expected)
 
 
-def test_globox_reads_boxes_of_yolo_and_voc(made):
-    """Its corners of VOC are as written: from 1, inclusive."""
+def test_globox_reads_boxes_of_yolo_and_coco(made):
     library = pytest.importorskip("globox")
     folder, samples = made
     yolo = library.AnnotationSet.from_yolo_v5(folder / "labels", image_folder=folder / "images")
-    voc = library.AnnotationSet.from_pascal_voc(folder / "voc" / "Annotations")
+    coco = {}
+    for split in ("train", "test"):
+        read = library.AnnotationSet.from_coco(folder / f"annotations/instances_{split}.json")
+        coco |= {each.image_id: each for each in read}
     for truth in samples:
         name = truth.files["images"].split("/")[1]
         expected = np.array([each.box for each in truth.annotations]).reshape(-1, 4)
         np.testing.assert_allclose(corners(yolo[name]), expected, atol=1e-4)
-        np.testing.assert_array_equal(corners(voc[name]) - [1.0, 1.0, 0.0, 0.0], expected)
+        np.testing.assert_array_equal(corners(coco[name]), expected)
         assert [int(box.label) + 1 for box in yolo[name].boxes] == [
             each.category for each in truth.annotations
         ]
@@ -61,18 +63,6 @@ def test_globox_reads_boxes_of_yolo_and_voc(made):
 def corners(picture):
     found = [(box.xmin, box.ymin, box.xmax, box.ymax) for box in picture.boxes]
     return np.array(found).reshape(-1, 4)
-
-
-def test_webdataset_reads_pictures_maps_and_metadata(made):
-    library = pytest.importorskip("webdataset")
-    folder, samples = made
-    files = library.WebDataset(str(folder / "webdataset/train-000000.tar"), shardshuffle=False)
-    found = list(files.decode("pil"))
-    assert [each["json"]["index"] for each in found] == [
-        truth.index for truth in samples if truth.split == "train"
-    ]
-    for each in found:
-        assert each["jpg"].size == each["masks.png"].size == (labelled.WIDTH, labelled.HEIGHT)
 
 
 def test_pycolmap_projects_a_landmark_to_one_pixel(made):
@@ -94,16 +84,6 @@ def test_datasets_reads_the_image_folder(made, tmp_path):
     folder, samples = made
     found = library.load_dataset("imagefolder", data_dir=str(folder / "imagefolder"), cache_dir=str(tmp_path))
     compare_rows(found, samples)
-
-
-def test_datasets_reads_parquet_files(made, tmp_path):
-    library = pytest.importorskip("datasets", exc_type=ImportError)
-    folder, samples = made
-    formats.write(folder, samples, ["parquet"])
-    paths = {split: str(folder / f"parquet/{split}-*.parquet") for split in ("train", "test")}
-    found = library.load_dataset("parquet", data_files=paths, cache_dir=str(tmp_path))
-    compare_rows(found, samples)
-    assert found["train"].features["objects"]["category"].feature.names == ["fire", "smoke"]
 
 
 def compare_rows(found, samples):
