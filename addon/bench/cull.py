@@ -51,13 +51,12 @@ def run(bench: Bench) -> None:
             bench.row(
                 f"{size}: {step}",
                 tool,
-                Times((each[step],), (each[step],)),
+                Times((each[step],)),
                 RESOLUTION[0] * RESOLUTION[1],
                 "pixel",
                 error=error.get(tool) if step == "render" else None,
                 error_unit="FLIP",
                 threads=os.cpu_count() or 1,
-                bytes=round(each["bytes"]) or None if step == "render" else None,
             )
     ours, unculled = results[OURS], results[ALL]
     seconds = [each["build"] + each["render"] for each in (unculled, ours)]

@@ -1,21 +1,30 @@
-"""Fuel grid -> trees and grass (Algorithm 2), and stands of stems culled by the view of a drone."""
+"""Fuel grid -> trees and grass (Algorithm 2), and a stand of stems, compared with Blender's Poisson disk.
+
+Both give each stem room. Firetwin's stand also has sizes, and the distance levels that a drone's view needs;
+Blender's node "Distribute Points on Faces" gives positions alone. The speed decides how long a change of the
+forest takes to show.
+"""
 
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 from firetwin_core import forest, lod
 from firetwin_core.geo import LocalFrame
 from numpy.typing import NDArray
 
+from ..jobs import worker
+from ..progress import MessageCallback, Progress, no_message, silent
 from .harness import ORIGIN, OURS, Bench
-from .timing import Runner
+from .timing import LEAST, Runner, Stopwatch, Times
 
 SIDE = 720
 TREES, GRASS = 363_632 / 720**2, 419_048 / 720**2  # shares of the paper's cells
 STEMS = 1_000_000
 CELL = 74.0**2  # m2
+POISSON, FIELD = "Blender's Poisson disk", 700.0  # m, side of its field of points at least a metre apart
 FRAMES = 48
 Grid = tuple[NDArray, NDArray, NDArray, NDArray, NDArray]
 
@@ -71,5 +80,39 @@ def run(bench: Bench) -> None:
     plants, call = len(trees) + len(grass), partial(planted, grid)
     bench.race(f"{SIDE} x {SIDE}", [Runner(OURS, call), Runner(OURS, call, threads=2)], plants, "plant")
     grow = partial(stand, grid, part(grid, STEMS), views)
-    tools = [Runner(OURS, grow), Runner(OURS, grow, threads=2)]
-    bench.race(f"a stand of {STEMS:,} stems", tools, len(grow()[0]), "stem")
+    stems, tools = len(grow()[0]), [Runner(OURS, grow), Runner(OURS, grow, threads=2)]
+    case = f"a stand of {STEMS:,} stems"
+    speed = bench.race(case, tools, stems, "stem")[tools[1].label].speed(stems / 1e6)
+    if bench.blender():
+        points, seconds = worker.run(f"{__name__}:distribute", {})
+        bench.row(f"a field of {points:,} points", POISSON, Times(tuple(seconds)), points, "point", threads=2)
+        theirs = points / 1e6 / float(np.median(seconds))
+        bench.target("Speed of a stand, two threads", speed, theirs, "Mstem/s", rival=POISSON)
+
+
+# The following function runs in the worker process, where Blender is.
+
+
+def distribute(progress: Progress = silent, tell: MessageCallback = no_message) -> tuple[int, list[float]]:
+    """Distribute points on a plane repeatedly; return their number, and the seconds of each repetition."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.mesh.primitive_plane_add(size=FIELD)
+    field: Any = bpy.context.object
+    tree = bpy.data.node_groups.new("Field", "GeometryNodeTree")
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    points = tree.nodes.new("GeometryNodeDistributePointsOnFaces")
+    points.distribute_method = "POISSON"
+    points.inputs["Distance Min"].default_value = points.inputs["Density Max"].default_value = 1.0
+    tree.links.new(tree.nodes.new("NodeGroupInput").outputs[0], points.inputs["Mesh"])
+    tree.links.new(points.outputs["Points"], tree.nodes.new("NodeGroupOutput").inputs[0])
+    field.modifiers.new("Field", "NODES").node_group = tree
+    seconds = []
+    for seed in range(LEAST):
+        points.inputs["Seed"].default_value = seed
+        watch = Stopwatch()
+        geometry = field.evaluated_get(bpy.context.evaluated_depsgraph_get()).evaluated_geometry()
+        seconds.append(watch.read().seconds)
+    return len(geometry.pointcloud.points), seconds

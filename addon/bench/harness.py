@@ -8,7 +8,7 @@ import os
 import platform
 import statistics
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from types import ModuleType
 from typing import Any
 
@@ -23,10 +23,9 @@ ORIGIN = (38.93, -120.55, 0.0)
 
 @dataclass(frozen=True)
 class Row:
-    """One tool on one case: the time of each repetition (s) for `items` items, its error and its output size.
+    """One tool on one case: the wall-clock time of each repetition (s) for `items` items, and its error.
 
-    `processor` has the CPU time, s, over all cores. Unknown values are empty (`times`, `processor`) or None
-    (`error`, `bytes`).
+    Unknown values are empty (`times`) or None (`error`).
     """
 
     subject: str
@@ -38,18 +37,11 @@ class Row:
     error: float | None = None
     error_unit: str = ""
     threads: int = 1
-    bytes: int | None = None
-    processor: tuple[float, ...] = ()
 
     @property
     def seconds(self) -> float | None:
         """Median wall-clock time, s."""
         return statistics.median(self.times) if self.times else None
-
-    @property
-    def processor_seconds(self) -> float | None:
-        """Median CPU time, s."""
-        return statistics.median(self.processor) if self.processor else None
 
     @property
     def label(self) -> str:
@@ -84,44 +76,15 @@ class Target:
         return self.value <= self.bound if self.most else self.value >= self.bound
 
 
-@dataclass(frozen=True)
-class Report:
-    """All measurements of `runs` runs of every subject."""
-
-    machine: dict[str, Any]
-    runs: int
-    subjects: dict[str, str]
-    rows: list[Row]
-    targets: list[Target]
-    skipped: list[str]
-
-    def as_json(self) -> dict[str, Any]:
-        """Convert to plain data."""
-        return {
-            "machine": self.machine,
-            "runs": self.runs,
-            "subjects": self.subjects,
-            "rows": [
-                asdict(row) | {"seconds": row.seconds, "processor_seconds": row.processor_seconds}
-                for row in self.rows
-            ],
-            "targets": [
-                asdict(target) | {"value": target.value, "met": target.met} for target in self.targets
-            ],
-            "skipped": self.skipped,
-        }
-
-
 @dataclass
 class Bench:
-    """Collects the measurements of subjects; another run of a subject adds repetitions."""
+    """Measurements of subjects."""
 
     subject: str = ""
-    runs: int = 1
     machine: dict[str, Any] = field(default_factory=lambda: _machine())
     subjects: dict[str, str] = field(default_factory=dict)
-    rows: dict[tuple, Row] = field(default_factory=dict)
-    targets: dict[tuple, Target] = field(default_factory=dict)
+    rows: list[Row] = field(default_factory=list)
+    targets: list[Target] = field(default_factory=list)
     skipped: list[str] = field(default_factory=list)
 
     def begin(self, subject: str, what: str) -> None:
@@ -129,28 +92,17 @@ class Bench:
         self.subject = subject
         self.subjects[subject] = what
 
-    def time(self, runners: Sequence[Runner]) -> dict[str, Times]:
-        """Time the tools in turns, and return the times of each by its label."""
-        measured = race(runners, MOST, SECONDS)
-        return {runner.label: times for runner, times in zip(runners, measured, strict=True)}
-
     def race(
         self, case: str, runners: Sequence[Runner], items: int, unit: str, error_unit: str = ""
     ) -> dict[str, Times]:
-        """Time the tools in turns, and add a row for each."""
-        measured = self.time(runners)
-        for runner in runners:
+        """Time the tools in turns, add a row for each, and return the times by label."""
+        measured = race(runners, MOST, SECONDS)
+        for runner, times in zip(runners, measured, strict=True):
+            error, threads = runner.error, runner.threads
             self.row(
-                case,
-                runner.tool,
-                measured[runner.label],
-                items,
-                unit,
-                error=runner.error,
-                error_unit=error_unit,
-                threads=runner.threads,
+                case, runner.tool, times, items, unit, error=error, error_unit=error_unit, threads=threads
             )
-        return measured
+        return {runner.label: times for runner, times in zip(runners, measured, strict=True)}
 
     def row(
         self,
@@ -163,17 +115,11 @@ class Bench:
         error: float | None = None,
         error_unit: str = "",
         threads: int = 1,
-        bytes: int | None = None,
     ) -> None:
         """Add a measurement; `error` is in `error_unit`."""
-        key = self.subject, case, tool, threads
-        before = self.rows.get(key)
-        seconds = (before.times if before else ()) + (times.seconds if times else ())
-        processor = (before.processor if before else ()) + (times.processor if times else ())
+        seconds = times.seconds if times else ()
         error = None if error is None else float(error)
-        self.rows[key] = Row(
-            self.subject, case, tool, seconds, items, unit, error, error_unit, threads, bytes, processor
-        )
+        self.rows.append(Row(self.subject, case, tool, seconds, items, unit, error, error_unit, threads))
 
     def target(
         self,
@@ -187,11 +133,7 @@ class Bench:
     ) -> None:
         """Add a target with its measured value, or with one value for each repetition."""
         several = tuple(map(float, values)) if isinstance(values, Sequence) else (float(values),)
-        target = Target(self.subject, quantity, several, float(bound), unit, most, rival)
-        key = self.subject, quantity
-        if key in self.targets:
-            target = replace(target, values=self.targets[key].values + several)
-        self.targets[key] = target
+        self.targets.append(Target(self.subject, quantity, several, float(bound), unit, most, rival))
 
     def rival(self, name: str) -> ModuleType | None:
         """Import the package of a competing tool; record a skip if it is missing."""
@@ -220,16 +162,17 @@ class Bench:
         if line not in self.skipped:
             self.skipped.append(line)
 
-    def report(self) -> Report:
-        """Return all measurements so far."""
-        return Report(
-            self.machine,
-            self.runs,
-            self.subjects,
-            list(self.rows.values()),
-            list(self.targets.values()),
-            self.skipped,
-        )
+    def as_json(self) -> dict[str, Any]:
+        """Convert to plain data."""
+        return {
+            "machine": self.machine,
+            "subjects": self.subjects,
+            "rows": [asdict(row) | {"seconds": row.seconds} for row in self.rows],
+            "targets": [
+                asdict(target) | {"value": target.value, "met": target.met} for target in self.targets
+            ],
+            "skipped": self.skipped,
+        }
 
 
 def _machine() -> dict[str, Any]:

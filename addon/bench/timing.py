@@ -45,10 +45,9 @@ def label(tool: str, threads: int) -> str:
 
 @dataclass(frozen=True)
 class Times:
-    """Wall-clock and CPU seconds of each repetition of one tool, in order."""
+    """Wall-clock seconds of each repetition of one tool, in order."""
 
     seconds: tuple[float, ...]
-    processor: tuple[float, ...] = ()
 
     @property
     def median(self) -> float:
@@ -99,32 +98,31 @@ class threads:  # noqa: N801 - reads as a statement
 def race(runners: Sequence[Runner], most: int, budget: float) -> list[Times]:
     """Call every runner once to warm up, then all in turns, LEAST to `most` times, as `budget` (s) allows."""
     often = [_often(runner) for runner in runners]
-    measured: list[list[Spent]] = [[] for _ in runners]
+    measured: list[list[float]] = [[] for _ in runners]
     begun = time.perf_counter()
     for done in range(most):
         if done >= LEAST and time.perf_counter() - begun > budget:
             break
         for runner, number, spent in zip(runners, often, measured, strict=True):
             spent.append(_sample(runner, number))
-    return [Times(tuple(s.seconds for s in spent), tuple(s.processor for s in spent)) for spent in measured]
+    return [Times(tuple(spent)) for spent in measured]
 
 
 def _often(runner: Runner) -> int:
     """Choose the number of calls in a sample; the first call has cold caches and does not count."""
-    seconds = _sample(runner, 1).seconds
+    seconds = _sample(runner, 1)
     if runner.before:
         return 1
     if seconds < 50 * SAMPLE:
-        seconds = _sample(runner, 1).seconds
+        seconds = _sample(runner, 1)
     return max(1, math.ceil(SAMPLE / max(seconds, 1e-9)))
 
 
-def _sample(runner: Runner, number: int) -> Spent:
+def _sample(runner: Runner, number: int) -> float:
     if runner.before:
         runner.before()
     with threads(runner.threads):
         watch = Stopwatch()
         for _ in range(number):
             runner.call()
-        spent = watch.read()
-    return Spent(spent.seconds / number, spent.processor / number)
+        return watch.read().seconds / number

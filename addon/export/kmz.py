@@ -12,11 +12,12 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
+from firetwin_core import sensor
 from numpy.typing import NDArray
 
 from .. import files
 from ..imaging import map_symbols
-from . import fronts, overlays, pictures, places, tracks
+from . import fronts, overlays, places, symbols, tracks
 from .fronts import DatedFront
 from .overlays import Overlay
 from .places import Place
@@ -40,9 +41,9 @@ def write(request: ExportRequest) -> list[Path]:
     drawn = overlays.draw(request.shot.run)
     members = {"doc.kml": "".join(_document(request, drawn)).encode()}
     for number, overlay in enumerate(drawn, 1):
-        members[_overlay_path(number)] = pictures.png(overlay.pixels)
+        members[_overlay_path(number)] = _png(overlay.pixels)
     for symbol in _COLOURS:
-        members[_icon_path(symbol)] = pictures.png(_icon(symbol))
+        members[_icon_path(symbol)] = _png(_icon(symbol))
 
     def put(part: Path) -> None:
         with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -174,6 +175,10 @@ def _overlay_path(number: int) -> str:
     return f"files/map-{number}.png"
 
 
+def _png(pixels: NDArray[np.uint8]) -> bytes:
+    return sensor.encode_png(pixels / np.float32(255.0))
+
+
 def _icon_id(symbol: str) -> str:
     return symbol.lower().replace(" ", "-")
 
@@ -184,7 +189,7 @@ def _icon_path(symbol: str) -> str:
 
 def _icon(symbol: str) -> NDArray[np.uint8]:
     cross = map_symbols.FIRE_EDGE if symbol == places.IGNITION else ""
-    return pictures.symbol(_COLOURS[symbol], symbol == places.STATION, cross)
+    return symbols.draw(_COLOURS[symbol], symbol == places.STATION, cross)
 
 
 def _coordinates(ring: Array) -> str:

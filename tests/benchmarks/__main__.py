@@ -1,17 +1,16 @@
 """Benchmarks for developers: speed and error of further steps, in addition to `firetwin bench`.
 
     .venv/bin/python tests/benchmarks                             lists all of them
-    .venv/bin/python tests/benchmarks NAME ... [--runs N] [--json | --markdown] [--out DIR]
+    .venv/bin/python tests/benchmarks NAME ...
 
-Prints the tables of subjects; `--out` also draws run time against error and size. The other files are studies
-with their own arguments: `.venv/bin/python tests/benchmarks/NAME.py --help`.
+Prints the tables of subjects. The other files are studies with their own arguments:
+`.venv/bin/python tests/benchmarks/NAME.py --help`.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
-import json
 import os
 import sys
 from pathlib import Path
@@ -20,11 +19,13 @@ HERE = Path(__file__).parent
 SUBJECTS = (
     "positions",
     "planting",
+    "interpolation",
+    "motion",
+    "ensembles",
     "frame_change",
     "scattering",
     "flow_conservation",
     "particles",
-    "planning",
 )
 
 
@@ -32,16 +33,8 @@ def main() -> None:
     """List the benchmarks, or measure and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("names", metavar="NAME", nargs="*", choices=[[], *SUBJECTS], help=", ".join(SUBJECTS))
-    parser.add_argument("--runs", metavar="N", type=int, default=1, help="repeated measurements (1)")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="folder for the plots")
-    form = parser.add_mutually_exclusive_group()
-    form.add_argument("--json", action="store_true", help="write JSON")
-    form.add_argument("--markdown", action="store_true", help="write Markdown tables")
-    options = parser.parse_args()
-    if not options.names:
-        print("\n".join(list_benchmarks()))
-        return
-    print(measure(options))
+    names = parser.parse_args().names
+    print(measure_subjects(names) if names else "\n".join(list_benchmarks()))
 
 
 def list_benchmarks() -> list[str]:
@@ -56,22 +49,15 @@ def _summary(name: str) -> str:
     return (ast.get_docstring(ast.parse(source)) or "").partition("\n")[0]
 
 
-def measure(options: argparse.Namespace) -> str:
+def measure_subjects(names: list[str]) -> str:
     """Measure subjects and format their report."""
-    from firetwin.bench import measure_modules, table
+    from firetwin.bench import measure, table
     from firetwin.progress import Reporter
 
     sys.path.append(str(HERE.parent / "helpers"))
     paths = [str(HERE), os.environ.get("PYTHONPATH", "")]
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))  # for processes that a subject starts
-    report = measure_modules(options.names, options.runs, Reporter())
-    if options.out:
-        import plots
-
-        plots.draw(report, options.out)
-    if options.json:
-        return json.dumps(report.as_json(), indent=1)
-    return table.markdown(report) if options.markdown else table.page(report)
+    return table.page(measure(names, Reporter()))
 
 
 if __name__ == "__main__":

@@ -2,10 +2,9 @@
 
     python tests/benchmarks/scale.py SAMPLE [--work DIR] [--minutes 240]
 
-SAMPLE is the run of `firetwin sample`. Runs in DIR: `sample`, its minutes from `FIRST` on; `split`, the same
-fire with each cell split into 4 x 4; and `large`, circular fires on grids of 2000 and 2880 cells of 30 m
-along a side. Each step runs in a separate process; its memory is the peak minus the memory after imports. The
-shot lasts `SHOT` s.
+SAMPLE is the run of `firetwin sample`. Runs in DIR: `sample`, its minutes from `FIRST` on, and `split`, the
+same fire with each cell split into 4 x 4. Each step runs in a separate process; its memory is the peak minus
+the memory after imports. The shot lasts `SHOT` s.
 
 Then the front computed from heat fluxes only, with output each minute and each quarter of an hour: its mean
 and its outward distance from the sample's arrival times, and the error of the burned area.
@@ -31,42 +30,8 @@ from numpy.typing import NDArray
 
 FIRST, SPLIT = 1000, 4  # minute of the sample's long run up the canyon; cells for each, along both axes
 SHOT, EVERY = 3600.0, 30.0  # s
-SIDES, FRAMES = (2000, 2880), 12
 CELL = 74.0  # m, of the sample's fuel
 SERIES = ("heat_flux", "temperature", "wind_east", "wind_north")
-
-
-def info(folder: Path) -> None:
-    """Gather everything that `firetwin info` shows, without cached facts."""
-    from firetwin.run import fact_cache
-
-    (folder / fact_cache.NAME).unlink(missing_ok=True)
-    info_again(folder)
-
-
-def info_again(folder: Path) -> None:
-    """Gather the same again, with cached facts if the files are some seconds old."""
-    from firetwin.run import info
-
-    info.gather(runs.open(folder), "UTC")
-
-
-def planning(folder: Path) -> None:
-    """Plan as `firetwin render --frames 1` does before it starts Blender, without cached hashes."""
-    from firetwin.run import content
-
-    (folder / content.REMEMBERED).unlink(missing_ok=True)
-    planning_again(folder)
-
-
-def planning_again(folder: Path) -> None:
-    """Plan again, with cached hashes if the files are some seconds old."""
-    import planning
-
-    with tempfile.TemporaryDirectory() as name:
-        scene = Path(name) / "scene.toml"
-        scene.write_text(f'run = "{folder}"\n[time]\nframes = 100\n' + planning.CAMERA.format(1))
-        planning.missing(scene, Path(name) / "out")
 
 
 def emission(folder: Path) -> float:
@@ -89,11 +54,7 @@ def interpolation(folder: Path) -> float:
     return watch.read().seconds / len(times)
 
 
-STEPS: dict[str, Callable[[Path], float | None]] = {
-    "info": info,
-    "info again": info_again,
-    "planning": planning,
-    "planning again": planning_again,
+STEPS: dict[str, Callable[[Path], float]] = {
     "emission": emission,
     "interpolation": interpolation,
 }
@@ -115,14 +76,12 @@ def measure(step: str, folder: Path) -> dict[str, float]:
 
 
 def _step(name: str, folder: Path) -> None:
-    importlib.import_module("firetwin.run.info")
     importlib.import_module("firetwin.shot.fire.fire")
-    importlib.import_module("planning")
     before, watch = memory.peak(), Stopwatch()
     one = STEPS[name](folder)
     spent, held = watch.read(), memory.peak() - before
     found = {"seconds": spent.seconds, "cpu-s": spent.processor, "MB": held / 2**20}
-    print(json.dumps(found | {"ms per time": (one or 0.0) * 1000}))
+    print(json.dumps(found | {"ms per time": one * 1000}))
 
 
 def cut(
@@ -179,29 +138,6 @@ def _finer(axis: NDArray, split: int) -> NDArray:
     return (axis[:, None] + part * (axis[-1] - axis[0]) / (len(axis) - 1)).ravel()
 
 
-def large(out: Path, side: int) -> Path:
-    """Write a circular fire on side x side cells, with output each ten minutes and no arrival times."""
-    out.mkdir()
-    (out / "run.toml").write_text(
-        'start = 2014-09-17T04:45:00Z\ninterval_s = 600.0\nvertical = "orthometric"\n'
-        '[units]\nelevation = "m"\nheat_flux = "W/m2"\nsurface_fuel = "kg/m2"\ncanopy_fuel = "kg/m2"\n'
-    )
-    place = np.arange(side) - side / 2
-    arrival = np.hypot(place[:, None], place[None]) * 30.0  # s: 1 m/s
-    for prefix in ("", "fuel_"):
-        np.save(out / f"{prefix}latitude.npy", 38.9 + place * 30.0 / 111_000.0)
-        np.save(out / f"{prefix}longitude.npy", -120.6 + place * 30.0 / 86_600.0)
-    for name, value in (("elevation", 1000.0), ("surface_fuel", 1.0), ("canopy_fuel", 1.0)):
-        np.save(out / f"{name}.npy", np.full((side, side), value, np.float32))
-    flux = np.lib.format.open_memmap(out / "heat_flux.npy", "w+", np.float32, (FRAMES, side, side))
-    for index in range(FRAMES):
-        age = index * 600.0 - arrival
-        flux[index] = np.where(
-            (age >= 0.0) & (age < 4200.0), 5.0e4 * np.exp(-np.maximum(age, 0) / 420.0), 0.0
-        )
-    return out
-
-
 def front(sample: Path, found: NDArray, moments: NDArray) -> tuple[float, float, float]:
     """Return the mean and the outward distance of a front, m, and the error of the last burned area, %."""
     own = np.load(sample / "fuel_arrival_time.npy").astype(np.float64)
@@ -238,7 +174,6 @@ def main() -> None:
         folders = [
             cut(given.sample, work / "sample", minutes),
             cut(given.sample, work / "split", minutes, SPLIT),
-            *(large(work / f"large{side}", side) for side in SIDES),
         ]
         for folder in folders:
             for step in STEPS:

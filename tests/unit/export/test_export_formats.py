@@ -8,7 +8,7 @@ from datetime import datetime
 import numpy as np
 import pytest
 from firetwin import cli
-from firetwin.export import czml, fronts, kmz, overlays, pictures, texts, tracks
+from firetwin.export import czml, fronts, kmz, overlays, symbols, texts, tracks
 from firetwin.export.request import ExportRequest
 from firetwin.run.front import reach
 from firetwin.shot import georeference
@@ -252,7 +252,7 @@ def test_pictures_are_read_by_pillow(request_of, tmp_path):
             with Image.open(path) as picture:
                 picture.load()
                 assert picture.mode == "RGBA"
-    pixels = pictures.symbol("#ff0000", cross="#ff0000")
+    pixels = symbols.draw("#ff0000", cross="#ff0000")
     assert pixels[32, 32].tolist() == [255, 0, 0, 255]
     assert pixels[0, 0, 3] == 0
 

@@ -2,9 +2,9 @@
 
 import functools
 
+import motion
 import numpy as np
 import pytest
-from firetwin.bench import motion
 from firetwin_core import flow
 
 SPACING, SHAPE, LEVELS, DEPTH, VOXEL = 66.7, (20, 40), 18, 60.0, 30.0  # m; rows and columns

@@ -13,20 +13,19 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
+from firetwin.bench import march
+from firetwin.bench.harness import OURS, Bench
+from firetwin.bench.timing import Stopwatch, Times
+from firetwin.data import sample
+from firetwin.run.areas import metres_per_degree
+from firetwin.shot import sections, settings
+from firetwin.shot.cameras import pixel_rays
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.shot import Shot
+from firetwin.smoke import sources
 from firetwin_core import run as runs
 from firetwin_core import volume
 from numpy.typing import NDArray
-
-from ..data import sample
-from ..run.areas import metres_per_degree
-from ..shot import sections, settings
-from ..shot.cameras import pixel_rays
-from ..shot.cameras.rigs.drone import CameraKey, Drone
-from ..shot.shot import Shot
-from ..smoke import sources
-from . import march
-from .harness import OURS, Bench
-from .timing import Stopwatch, Times
 
 SPEED, FPS, FRAMES = 10.0, 12, 8  # times real time
 SIZE = (320, 180)
@@ -47,13 +46,13 @@ def run(bench: Bench) -> None:
         ):
             shot = Shot(file, runs.open(file.run))
             watch = Stopwatch()
-            found = ratio(pictures(shot))
+            value = ratio(pictures(shot))
             spent = watch.read()
-            times = Times((spent.seconds,), (spent.processor,))
+            times = Times((spent.seconds,))
             case = f"{FRAMES} frames of {SIZE[0]} by {SIZE[1]} pixels of smoke, with its flow"
-            bench.row(case, f"{OURS}, {name}", times, FRAMES, "frame", error=found, error_unit="of motion")
+            bench.row(case, f"{OURS}, {name}", times, FRAMES, "frame", error=value, error_unit="of motion")
             quantity = f"Second difference / first of smoke, {name} at {SPEED:g} times real time"
-            bench.target(quantity, found, LIMIT, "", most=True)
+            bench.target(quantity, value, LIMIT, "", most=True)
 
 
 def ratio(frames: Array) -> float:
@@ -66,7 +65,7 @@ def pictures(shot: Shot) -> Array:
     """Render the green radiance (frames, h, w) of a shot's smoke alone, seen by its only camera."""
     source, (view,), light = sources.select(shot), shot.paths, march.light()
     width, height = shot.settings.render.resolution
-    found = []
+    radiance = []
     for frame in range(1, shot.frames.count + 1):
         x, y = pixel_rays.plane(view, frame, height, width)
         local = np.stack([x, y, -np.ones_like(x)], axis=-1).reshape(-1, 3)
@@ -74,8 +73,8 @@ def pictures(shot: Shot) -> Array:
         ends = np.full((len(toward), 1), pixel_rays.SKY, np.float32)
         lines = view.position[frame - 1], toward, ends
         marched = volume.march(source.bricks(frame), *lines, light, step=0.5, pixel=(0.0, view.pixel))
-        found.append(np.asarray(marched, np.float64).reshape(height, width, 4)[..., 1])
-    return np.array(found)
+        radiance.append(np.asarray(marched, np.float64).reshape(height, width, 4)[..., 1])
+    return np.array(radiance)
 
 
 def king(folder: Path, speed: float = SPEED) -> settings.Settings:

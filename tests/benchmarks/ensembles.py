@@ -14,16 +14,15 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+from firetwin import memory
+from firetwin.bench.harness import OURS, Bench
+from firetwin.bench.timing import Runner
+from firetwin.jobs import worker
+from firetwin.progress import MessageCallback, Progress, no_message, silent
+from firetwin.run.ensemble import ensemble, statistics, write
+from firetwin.run.ensemble.ensemble import Ensemble
+from firetwin.run.ensemble.manifest import Manifest, Member
 from numpy.typing import NDArray
-
-from .. import memory
-from ..jobs import worker
-from ..progress import MessageCallback, Progress, no_message, silent
-from ..run.ensemble import ensemble, statistics, write
-from ..run.ensemble.ensemble import Ensemble
-from ..run.ensemble.manifest import Manifest, Member
-from .harness import OURS, Bench
-from .timing import Runner
 
 HORIZON = 86_400.0  # s
 MOMENTS = np.linspace(HORIZON / 8, HORIZON, 8)
@@ -50,10 +49,10 @@ def make(folder: Path, count: int, side: int) -> Ensemble:
     return ensemble.open(folder)
 
 
-def compute(found: Ensemble) -> tuple[NDArray, NDArray, NDArray]:
+def compute(forecast: Ensemble) -> tuple[NDArray, NDArray, NDArray]:
     """Compute shares, quantiles and depths."""
-    shares = statistics.shares(found, MOMENTS).share
-    return shares, statistics.quantiles(found, LEVELS), statistics.depths(found, HORIZON)
+    shares = statistics.shares(forecast, MOMENTS).share
+    return shares, statistics.quantiles(forecast, LEVELS), statistics.depths(forecast, HORIZON)
 
 
 def numpy_shares(arrival: NDArray, _: NDArray) -> NDArray:
@@ -82,34 +81,34 @@ def run(bench: Bench) -> None:
     per_value = {}
     for count, side in CASES:
         with tempfile.TemporaryDirectory() as folder:
-            found = make(Path(folder) / "ensemble", count, side)
+            forecast = make(Path(folder) / "ensemble", count, side)
             case = f"{count:,} members of {side} x {side}"
-            seconds = _rows(bench, found, case, numpy=count == CASES[-1][0])
+            seconds = _rows(bench, forecast, case, numpy=count == CASES[-1][0])
             per_value[count] = [each / (count * side * side) for each in seconds]
             if count == 100:
                 bench.target(f"Time of the three, {case}", seconds, 3.0, "s", most=True)
-                peak = worker.run(f"{__name__}:peak_of", {"folder": str(found.path)}, blender=False)
+                peak = worker.run(f"{__name__}:peak_of", {"folder": str(forecast.path)}, blender=False)
                 if peak:  # known
                     bench.target(f"Peak memory of a process, {case}", peak / 1e6, 300.0, "MB", most=True)
     growth = [many / few for few, many in zip(per_value[20], per_value[1000], strict=False)]
     bench.target("Time per value, 1,000 members / 20 members", growth, 2.0, "x", most=True)
 
 
-def _rows(bench: Bench, found: Ensemble, case: str, numpy: bool) -> list[float]:
+def _rows(bench: Bench, forecast: Ensemble, case: str, numpy: bool) -> list[float]:
     """Time the three statistics, and NumPy's; return the sums of firetwin's seconds in each repetition."""
     arguments = {"shares": MOMENTS, "quantiles": LEVELS, "depths": HORIZON}
-    arrival = np.load(found.path / ensemble.ARRIVAL) if numpy else np.empty(0)
+    arrival = np.load(forecast.path / ensemble.ARRIVAL) if numpy else np.empty(0)
     taken = []
     for step, argument in arguments.items():
-        compute = partial(getattr(statistics, step), found, argument)
+        compute = partial(getattr(statistics, step), forecast, argument)
         runners = [Runner(OURS, compute)]
         if numpy:
-            theirs = partial(NUMPY[step], arrival, found.areas)
+            theirs = partial(NUMPY[step], arrival, forecast.areas)
             made = compute()
             error = _difference(made.share if isinstance(made, statistics.Shares) else made, theirs())
             runners.append(Runner("NumPy", theirs))
             bench.target(f"Largest difference from NumPy, {step}", error, 5e-6, "", most=True)
-        times = bench.race(f"{step}, {case}", runners, int(np.prod(found.shape)), "value")
+        times = bench.race(f"{step}, {case}", runners, int(np.prod(forecast.shape)), "value")
         if step == "depths" and numpy:
             speed = times[OURS].faster_than(times["NumPy"])
             bench.target(f"Speed of depths / areas of all pairs, {case}", speed, 2.0, "x")

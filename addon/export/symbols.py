@@ -1,30 +1,12 @@
-"""PNG pictures of an export, with the standard library and NumPy alone."""
+"""Symbols of an export, drawn with NumPy."""
 
 from __future__ import annotations
-
-import struct
-import zlib
 
 import numpy as np
 from numpy.typing import NDArray
 
-_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
-
-def png(pixels: NDArray[np.uint8]) -> bytes:
-    """Encode sRGB pixels with alpha (h, w, 4), first row on top."""
-    height, width, _ = pixels.shape
-    rows = np.zeros((height, 1 + 4 * width), np.uint8)  # each begins with filter 0
-    rows[:, 1:] = pixels.reshape(height, -1)
-    header = struct.pack(">2I5B", width, height, 8, 6, 0, 0, 0)
-    chunks = (b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b"")
-    return _SIGNATURE + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-        for kind, data in chunks
-    )
-
-
-def symbol(colour: str, square: bool = False, cross: str = "", side: int = 64) -> NDArray[np.uint8]:
+def draw(colour: str, square: bool = False, cross: str = "", side: int = 64) -> NDArray[np.uint8]:
     """Draw a white disc or square with an edge, and a cross, of these colours; (side, side, 4).
 
     It is drawn four times larger and averaged, so that edges are smooth.

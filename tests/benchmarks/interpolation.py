@@ -15,14 +15,13 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+from firetwin.bench.harness import OURS, Bench
+from firetwin.bench.timing import Runner
+from firetwin.data import sample, stored
+from firetwin.data.grid import MODEL_CELL_SIZE, MODEL_CELLS, axes
 from firetwin_core import run as runs
 from firetwin_core.flux import Interpolator
 from numpy.typing import NDArray
-
-from ..data import sample, stored
-from ..data.grid import MODEL_CELL_SIZE, MODEL_CELLS, axes
-from .harness import OURS, Bench
-from .timing import Runner
 
 FIRST, MINUTES = 1000, 240  # four hours of the sample's long run up the canyon
 LINEAR = "linear blending"
@@ -57,10 +56,10 @@ def write_run(folder: Path, flux: NDArray, seconds: NDArray) -> None:
     )
 
 
-def front_error(found: NDArray, true: NDArray, before: NDArray, after: NDArray) -> float:
+def front_error(field: NDArray, true: NDArray, before: NDArray, after: NDArray) -> float:
     """Return the percentage of cells crossed from `before` to `after` that are on the front's wrong side."""
     crossed = (before == 0) & (after > 0)
-    return float(100 * ((found > 0) != (true > 0))[crossed].sum() / max(1, crossed.sum()))
+    return float(100 * ((field > 0) != (true > 0))[crossed].sum() / max(1, crossed.sum()))
 
 
 def brightness(flux: NDArray) -> float:
@@ -68,9 +67,9 @@ def brightness(flux: NDArray) -> float:
     return float(np.sum(np.maximum(flux, 0).astype(float) ** 1.5))
 
 
-def departure(found: NDArray, expected: NDArray) -> float:
+def departure(field: NDArray, expected: NDArray) -> float:
     """Return the root mean square of the relative difference, in percent."""
-    return 100 * float(np.sqrt(np.mean(np.square(found / expected - 1))))
+    return 100 * float(np.sqrt(np.mean(np.square(field / expected - 1))))
 
 
 def run(bench: Bench) -> None:
