@@ -9,6 +9,7 @@ import ast
 import importlib
 import pkgutil
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -44,9 +45,11 @@ def of_rooms(name: str) -> tuple[ModuleType, ...]:
     return tuple(parts(str(__package__), name).values())
 
 
-def declared(folder: Path, constant: str) -> dict[str, Any]:
-    """Read a literal constant of those modules of a folder that have it, in order; none is imported."""
-    texts = {path.stem: path.read_text(encoding="utf-8") for path in sorted(folder.glob("[!_]*.py"))}
+def declared(folders: Path | Sequence[Path], constant: str) -> dict[str, Any]:
+    """Read a literal constant of those modules of folders that have it, in order; none is imported."""
+    listed = [folders] if isinstance(folders, Path) else folders
+    files = [path for folder in listed for path in sorted(folder.glob("[!_]*.py"))]
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in files}
     found = {name: _literals(text, constant) for name, text in texts.items() if f"\n{constant} = " in text}
     ranked = sorted(found.items(), key=lambda item: item[1].get("ORDER", 0))
     return {name: each[constant] for name, each in ranked}

@@ -154,7 +154,7 @@ def describe_pass(each: passes.Pass) -> str:
     facts += ["Also written as a video (MP4)"] if each.film else []
     facts += ["Not for panoramas"] if each.single_view else []
     facts += ["Compares the runs of `[[runs]]`"] if isinstance(each, passes.ComparisonPass) else []
-    text = convert_docstring(sys.modules[f"{passes.__name__}.{each.name}"].__doc__)
+    text = convert_docstring(passes.modules()[each.name].__doc__)
     return f"### {each.name}\n\n{text}\n\n" + "\n".join(f"- {fact}." for fact in facts) + "\n"
 
 
@@ -175,7 +175,7 @@ validates a scene file. Former names of sections and keys are read with a note; 
 
 PASSES = """\
 A pass is a kind of picture that a camera records. `[render] passes` lists the passes of all
-cameras; the `passes` of a camera override it. Each file in `addon/shot/passes/` defines one pass. EXR files
+cameras; the `passes` of a camera override it. Each file in `addon/passes/` defines one pass. EXR files
 have 32 bits per value; the EXR of `rgb` has 16 and is scene-linear. [EXR files](delivery.md#exr-files) lists
 their attributes.
 
@@ -240,7 +240,9 @@ def describe_passes_and_cameras() -> str:
             "# Passes and cameras\n",
             "## Passes\n",
             PASSES,
-            format_table(("pass", "content"), ((f"[`{n}`](#{n})", p.help) for n, p in known.items())),
+            format_table(
+                ("pass", "content"), ((f"[`{n}`](#{n})", text) for n, text in passes.helps().items())
+            ),
             *(describe_pass(each) for each in known.values()),
             "## Cameras\n",
             CAMERAS,

@@ -8,7 +8,7 @@ clean    the same without sensor effects, PNG
 twin     the same as clean, without smoke, PNG
 alpha    opacity of smoke in green light, 16-bit PNG: 65535 is opaque
 depth    planar depth of solid surfaces, m, 32-bit TIFF; 0 is the sky
-classes  class of each pixel, 8-bit PNG with a palette (see `shot.passes.masks`)
+classes  class of each pixel, 8-bit PNG with a palette (see `passes.masks`)
 masks    ids of annotations, RGB PNG: smoke in red, visible fire in green, amodal fire in blue; 0: none
 instances numbers of trees and buildings, RGB PNG: red + 256 green + 65536 blue; 0: none
 thermal  brightness temperature, degrees C, 32-bit TIFF, with its conditions in a JSON file
@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..errors import input_error, reading
-from ..shot.passes import masks as classes
+from ..passes import masks as classes
 from . import truth
 from .rendered import Rendered
 from .truth import Annotation, Truth

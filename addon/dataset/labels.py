@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..passes import masks as classes
 from ..shot.cameras import path
-from ..shot.passes import masks as classes
 from . import components, survey, truth
 from .files import MOST, Masks
 from .rendered import Rendered

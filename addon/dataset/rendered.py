@@ -63,7 +63,7 @@ class Rendered:
     smoke_range
         (h, w) m, distance at which half of the opacity of the smoke is reached; inf without smoke.
     classes, surface
-        (h, w) uint8 class (see `shot.passes.masks`), and the class behind the smoke. `surface` is fire also
+        (h, w) uint8 class (see `passes.masks`), and the class behind the smoke. `surface` is fire also
         where smoke hides it: visible fire is classes == FIRE, amodal fire is surface == FIRE.
     instance
         (h, w) int32 number of the tree or building; 0: none.

@@ -10,12 +10,11 @@ from firetwin_core import sensor, volume
 from numpy.typing import NDArray
 
 from ..geometry.grids import dilate
+from ..passes import masks
 from ..render import composite
 from ..render.eye import Eye
-from ..render.finish.masks import classes
 from ..scene.smoke import illumination
 from ..shot.cameras.pixel_rays import SKY
-from ..shot.passes import masks
 from ..shot.sections.thermal import BANDS
 
 Array = NDArray[np.float32]
@@ -151,7 +150,7 @@ class CentreEye(SampleEye):
             ends, burning = self._flames_before(self.distance.copy())
             pixels[burning] = 0.0, 1.0, masks.FIRE
             clear[burning] = self._transmittance(burning, ends)
-        surface, instance, _, _ = classes(pixels)
+        surface, instance, _, _ = masks.classes(pixels)
         shown = np.where(clear > 1.0 - masks.HIDES, surface, masks.SMOKE)
         return shown.astype(np.uint8), surface.astype(np.uint8), instance.astype(np.int32)
 

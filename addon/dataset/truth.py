@@ -15,7 +15,7 @@ from typing import Any
 
 from .. import files
 from ..errors import input_error, reading
-from ..shot.passes import masks
+from ..passes import masks
 
 FORMAT = "firetwin sample 1"
 FOLDER = "meta"
@@ -35,7 +35,7 @@ class Category:
     has_instances
         True if its instances have boxes; a class of the background has none.
     value
-        Value in the class map (see `shot.passes.masks`).
+        Value in the class map (see `passes.masks`).
     """
 
     id: int

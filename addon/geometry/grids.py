@@ -1,4 +1,4 @@
-"""Dilation of masks, maximum filters of fields, and connected components of masks."""
+"""Dilation of masks, maximum and smoothing filters of fields, and connected components of masks."""
 
 from __future__ import annotations
 
@@ -28,6 +28,13 @@ def dilate(field: NDArray, reach: int, beyond: float | bool | None = None) -> ND
         windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis)
         field = functools.reduce(np.maximum, np.moveaxis(windows, -1, 0))
     return field
+
+
+def blur(values: NDArray) -> NDArray:
+    """Compute the centre-weighted mean (h, w, c) of each 3 x 3 neighbourhood."""
+    padded = np.pad(values, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    rows = 0.25 * padded[:-2] + 0.5 * padded[1:-1] + 0.25 * padded[2:]
+    return 0.25 * rows[:, :-2] + 0.5 * rows[:, 1:-1] + 0.25 * rows[:, 2:]
 
 
 def label(mask: Mask) -> tuple[Labels, int]:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
-from matplotlib.patches import Ellipse, Rectangle
-from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _DPI = 100.0
 _EMPTY = 0.07  # grey level of a quarter without a picture
@@ -48,6 +47,9 @@ def sheet(
     `below` rows from the bottom. `marks` are drawn in their pictures if they overlap neither other text nor
     an edge, the first ones first. The lines of `corner`, the first one larger, are drawn in the upper right.
     """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
     height, width = pictures[0].shape[:2]
     sheet, corners = _arranged([np.clip(picture[..., :3], 0.0, 1.0) for picture in pictures])
     figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI)
@@ -101,6 +103,8 @@ def _arranged(pictures: list[NDArray]) -> tuple[NDArray, list[tuple[int, int]]]:
 
 def _write_corner(figure: Figure, lines: Sequence[str], unit: float) -> None:
     """Write lines on a dark plate in the upper right corner, over other text of the picture."""
+    from matplotlib.patches import Rectangle
+
     if not lines:
         return
     width, height = figure.get_size_inches() * _DPI
@@ -159,6 +163,8 @@ def _overlap(one: Box, other: Box) -> bool:
 
 def _mark(figure: Figure, mark: Mark, size: float, at_left: bool) -> None:
     """Draw a dot and its text on the sheet."""
+    from matplotlib.patches import Ellipse
+
     width, height = figure.get_size_inches() * _DPI
     at = mark.x / width, 1.0 - mark.y / height
     shape = Ellipse(
@@ -172,6 +178,8 @@ def _mark(figure: Figure, mark: Mark, size: float, at_left: bool) -> None:
 
 def _swatch(figure: Figure, colour: str, box: tuple[float, float, float], unit: float) -> None:
     """Draw the square of a legend entry: left and top side, and its size, pixels."""
+    from matplotlib.patches import Rectangle
+
     left, top, size = box
     width, height = figure.get_size_inches() * _DPI
     if colour.startswith(LINE):
@@ -189,6 +197,8 @@ def _swatch(figure: Figure, colour: str, box: tuple[float, float, float], unit: 
 
 def _text(figure: Figure, x: float, y: float, text: str, size: float, side: str = "left") -> None:
     """Draw text `size` pixels high, vertically centred on y (pixels from the top), from or up to x."""
+    from matplotlib.patheffects import withStroke
+
     width, height = figure.get_size_inches() * _DPI
     if side == "right":  # text with an outline is drawn wider than it is laid out
         x -= 0.04 * 0.62 * size * len(text)

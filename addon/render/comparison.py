@@ -11,7 +11,6 @@ from ..shot import passes
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from . import credits, manifest
-from .finish import finisher
 from .picture import Picture
 from .pictures import publish
 from .sharing import RenderSession
@@ -48,7 +47,7 @@ def _finish(shot: Shot, session: RenderSession, part: Path, picture: Picture) ->
         )
     mine = {Path(name).suffix[1:]: part / Path(name).name for name in picture.files()}
     with writing(mine[comparing.files[0]]):
-        finisher(picture.name)(mine, needed, shot, picture.camera, picture.frame)
+        passes.finish(picture.name, mine, needed, shot, picture.camera, picture.frame)
     words = manifest.read_credits(session.made_with[picture.camera, picture.name])
     credits.burn(mine["png"], words, f"Firetwin: {shot.run.name}")
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.grids import dilate
+from ..geometry.grids import blur, dilate
 from ..shot.cameras.pixel_rays import SKY
 
 Array = NDArray[np.float32]
@@ -330,13 +330,6 @@ def _flame_light(surfaces: Surfaces) -> Array:
     part = blur(surfaces.fire) / np.maximum(blur(surfaces.noisy), 1.0e-6)
     alight = (surfaces.fire_distance > 0.0)[..., None]
     return np.where(alight, surfaces.colour * np.clip(part, 0.0, 1.0), 0.0)
-
-
-def blur(values: Array) -> Array:
-    """Compute the centre-weighted mean (h, w, c) of each 3 x 3 neighbourhood."""
-    padded = np.pad(values, ((1, 1), (1, 1), (0, 0)), mode="edge")
-    rows = 0.25 * padded[:-2] + 0.5 * padded[1:-1] + 0.25 * padded[2:]
-    return 0.25 * rows[:, :-2] + 0.5 * rows[:, 1:-1] + 0.25 * rows[:, 2:]
 
 
 def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array:

@@ -156,9 +156,8 @@ def _file(name: str, entry: Mapping[str, Any]) -> Entity:
         "sha256": entry["sha256"],
         "encodingFormat": _TYPES.get(Path(name).suffix) or mimetypes.guess_type(name)[0] or "unknown",
     }
-    known = passes.known().get(entry.get("pass", ""))
     more = {
-        "description": known.help if known else "",
+        "description": passes.helps().get(entry.get("pass", ""), ""),
         "temporalCoverage": entry.get("time"),
         "creditText": "; ".join(entry.get("credits", ())),
     }

@@ -2,7 +2,7 @@
 
 Pictures of passes that make films have credits in their pixels. Depth, masks, normals, temperatures (EXR) and
 the linear picture (EXR) are unchanged: their credits are in the manifest and in the sidecars of
-`shot.passes.pose`.
+`passes.pose`.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Training data set index ``CAMERA/transforms.json`` in nerfstudio's format.
 
-It lists the frames whose visible picture and sidecar (see `shot.passes.pose`) are finished, with intrinsics
+It lists the frames whose visible picture and sidecar (see `passes.pose`) are finished, with intrinsics
 and `transform_matrix`. `passes` lists every finished file of the frame. Cameras without a perspective
 projection have no index. ``transforms.json`` of the output folder has the frames of all cameras. `credits`
 of a frame name the sources of its tiles. `depth_file_path` and `mask_path` are the files of the pass
@@ -17,7 +17,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from .. import files
-from ..shot.passes import masks
+from ..passes import masks
 from .store import Store
 
 NAME = "transforms.json"

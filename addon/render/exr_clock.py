@@ -17,8 +17,8 @@ from firetwin_core import sensor
 
 from .. import files
 from ..progress import count
+from ..shot import exr_tags
 from ..shot.shot import Shot
-from . import exr_tags
 from .fingerprint import Fingerprints
 from .picture import Picture
 from .store import Store, describe

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from ..blender import nodes
 from ..blender.owned import Stage
-from ..geometry.grids import dilate
+from ..geometry.grids import blur, dilate
+from ..passes import masks
 from ..scene import flame_gaps, infrared, temperature
 from ..scene.labels.material import COVER
 from ..scene.smoke import illumination
-from ..shot.passes import masks
 from ..shot.sections.thermal import BANDS
 from ..shot.shot import Shot
 from ..smoke import shutter
@@ -89,7 +89,7 @@ class Eye:
         self.has_smoke_or_flames = np.ones(self.shape, bool)
         """Pixels (h, w) whose infrared rays are marched; a caller that knows more can set it."""
         self.layers: dict[str, Array] = {}
-        """Layers of the picture (see `shot.passes.comp`), once `picture` has computed them."""
+        """Layers of the picture (see `passes.comp`), once `picture` has computed them."""
 
     def picture(self, text: Channels | None = None) -> Array:
         """Compute the radiance (h, w, 3) of surfaces, smoke, flames and `text`, which was rendered alone."""
@@ -261,7 +261,7 @@ class Eye:
     def _surfaces(self) -> composite.Surfaces:
         channels = self.channels
         colour, surface = channels["Combined"], channels[nodes.SURFACE]
-        red, way, _ = np.moveaxis(composite.blur(channels[nodes.FLAMES]), -1, 0)
+        red, way, _ = np.moveaxis(blur(channels[nodes.FLAMES]), -1, 0)
         far = np.where(red > 1.0e-4, way / np.maximum(red, 1.0e-9), 0.0)
         return composite.Surfaces(
             colour=colour,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import inspect
 import sys
 from dataclasses import replace
 from importlib import metadata
@@ -22,7 +21,6 @@ from ..shot.stations import labels, station_signs
 from ..shot.surface import globe_picture, land_use, observed, orthophoto
 from ..shot.tiles import tile_cut
 from ..smoke import sources
-from . import finish
 from .picture import Picture
 
 Fingerprints = dict[tuple[str, str], dict[str, Any]]
@@ -33,7 +31,6 @@ _RENDERING = (
     "imaging/credits.py",
     "render/credits.py",
     "render/engine.py",
-    "render/exr_tags.py",
     "render/layers.py",
     "render/pictures.py",
     "render/png.py",
@@ -89,14 +86,9 @@ def _built(settings: Settings, camera: Camera) -> Settings:
 
 
 def _modules(name: str) -> list[str]:
-    """List the code files of a pass, of its post-processing, and of the passes that it is composed from."""
-    file, each = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"]), passes.known()[name]
-    return [
-        file,
-        *each.code,
-        *(finish.code_files(name) if each.finished else ()),
-        *(module for need in each.made_from for module in _modules(need)),
-    ]
+    """List the code files of a pass, and of the passes that it is composed from."""
+    each = passes.known()[name]
+    return [*passes.code_files(name), *(file for need in each.made_from for file in _modules(need))]
 
 
 @functools.cache

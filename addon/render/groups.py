@@ -21,10 +21,10 @@ from firetwin_core import sensor
 from ..blender import compat, nodes
 from ..blender.nodes import Tree, Value
 from ..blender.owned import Stage
+from ..passes import edl, overlay, thermal
 from ..shot.sections.thermal import BANDS
 from ..shot.settings import Settings
 from . import regrade
-from .finish import edl, overlay, thermal
 
 RANGE = 180.0, 1800.0  # K
 _DEGREE = 14

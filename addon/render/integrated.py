@@ -25,11 +25,11 @@ from ..scene import flame_field, flame_gaps
 from ..scene.fire import build as fire
 from ..scene.fire import flame_volume
 from ..scene.smoke import illumination, shadow
-from ..shot import passes
+from ..shot import exr_tags, passes
 from ..shot.fire import flame_map
 from ..shot.shot import Shot
 from ..smoke import sources
-from . import exr_tags, flame_distance, frame_cost, layers, motion_blur, rays, surfaces, text_layer
+from . import flame_distance, frame_cost, layers, motion_blur, rays, surfaces, text_layer
 from .eye import Eye
 from .picture import Picture
 

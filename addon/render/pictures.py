@@ -15,7 +15,7 @@ from ..blender.owned import Stage
 from ..errors import writing
 from ..imaging.credits import Credits
 from ..progress import MessageCallback, Progress, no_message, silent
-from ..shot import passes
+from ..shot import exr_tags, passes
 from ..shot.cameras import pixel_rays
 from ..shot.cameras.path import compass
 from ..shot.settings import mount
@@ -26,7 +26,6 @@ from . import (
     cycles_status,
     engine,
     exr_clock,
-    exr_tags,
     frame_cost,
     integrated,
     layers,
@@ -36,7 +35,6 @@ from . import (
     spherical,
     verify,
 )
-from .finish import finisher
 from .picture import Picture
 from .sharing import FrameQueue, RenderSession
 from .store import describe
@@ -176,7 +174,7 @@ class _Frame:
                 }
                 mine = self.files(self.pictures[drawn_pass.name], made)
                 with writing(mine[drawn_pass.files[0]]):
-                    finisher(drawn_pass.name)(mine, there, self.shot, self.camera, self.frame)
+                    passes.finish(drawn_pass.name, mine, there, self.shot, self.camera, self.frame)
             self._credit(drawn_pass)
         return [self.pictures[name] for name in names]
 

@@ -1,4 +1,4 @@
-"""Compositor node group Regrade: grades flames, smoke, lights and haze of the layers of `shot.passes.comp`.
+"""Compositor node group Regrade: grades flames, smoke, lights and haze of the layers of `passes.comp`.
 
 With T = 1 - `smoke.A` and a density factor k, the transmittance of the smoke becomes T^k (Beer-Lambert law).
 Surfaces are dimmed by T already, so they are multiplied by T^(k - 1). Smoke with the same source function S

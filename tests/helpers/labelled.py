@@ -10,7 +10,7 @@ from firetwin.dataset import files
 from firetwin.dataset import truth as truths
 from firetwin.dataset.truth import FIRE, SMOKE, Annotation, CameraPose, Truth
 from firetwin.geometry.quaternion import matrices
-from firetwin.shot.passes import masks
+from firetwin.passes import masks
 from PIL import Image
 
 WIDTH, HEIGHT = 64, 48

@@ -8,8 +8,8 @@ from datetime import UTC, datetime
 import numpy as np
 from firetwin.dataset.rendered import Camera, Rendered
 from firetwin.dataset.survey import Place
+from firetwin.passes import masks
 from firetwin.shot.georeference import Georeference
-from firetwin.shot.passes import masks
 from firetwin_core import geo
 
 

@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 import rendered
+from firetwin.passes import masks
 from firetwin.render.picture import Picture
-from firetwin.shot.passes import masks
 from firetwin_core import sensor
 
 SCENE = """\

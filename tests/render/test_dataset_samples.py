@@ -9,7 +9,7 @@ from firetwin.dataset import places, render_samples
 from firetwin.dataset.distributions import Constant, LogUniform
 from firetwin.dataset.draws import Drawer
 from firetwin.geometry.grids import dilate
-from firetwin.shot.passes import masks
+from firetwin.passes import masks
 
 LABELS = ("classes", "surface", "instance", "depth", "range", "clear", "smoke_range", "kelvin")
 

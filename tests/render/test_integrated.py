@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from firetwin.blender import owned
 from firetwin.imaging import cryptomatte
+from firetwin.passes import masks as masks_pass
 from firetwin.render import engine, integrated, layers, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
@@ -15,7 +16,6 @@ from firetwin.scene import build, infrared
 from firetwin.scene.smoke import shadow
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.passes import masks as masks_pass
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from firetwin.blender import compat, nodes, owned
 from firetwin.imaging import colour_bar
+from firetwin.passes import thermal
 from firetwin.render import engine, layers, pictures
-from firetwin.render.finish import thermal
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
 from firetwin.scene import infrared

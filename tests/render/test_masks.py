@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import nodes, owned
+from firetwin.passes import masks
 from firetwin.render import engine, layers, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
@@ -13,7 +14,6 @@ from firetwin.scene import build, infrared
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.cameras.rigs.mounted import Mounted
-from firetwin.shot.passes import masks
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor

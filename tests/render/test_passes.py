@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 import rendered
+from firetwin.passes import masks
 from firetwin.render import plan
 from firetwin.render.picture import Picture
 from firetwin.shot import passes
-from firetwin.shot.passes import masks
 from firetwin_core import sensor
 
 NAMES = [

@@ -157,7 +157,7 @@ def test_the_manifest_tells_what_made_each_file(film):
     settings = manifest["settings"][entry["settings"]]
     assert settings["settings"]["render"]["samples"] == 1
     assert set(settings["versions"]) == {"firetwin", "blender"}
-    assert {"core", "scene", "scene/smoke", "shot/passes/rgb.py"} <= set(settings["sources"])
+    assert {"core", "scene", "scene/smoke", "passes/rgb.py"} <= set(settings["sources"])
     assert len(settings["run"]["heat_flux.npy"]) == 64
 
 

@@ -6,7 +6,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
-from ...shot.passes import masks
+from ...passes import masks
 from ...shot.shot import Shot
 from .. import glow, haze, infrared
 

@@ -16,12 +16,12 @@ from firetwin_core import volume
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
 from ...errors import writing
+from ...passes import masks
 from ...run import content
 from ...shot import schema
 from ...shot.cameras.path import Path as CameraPath
 from ...shot.fire.flame_map import FADE
 from ...shot.light import exposure
-from ...shot.passes import masks
 from ...shot.settings import code_fingerprint
 from ...shot.shot import Shot
 from ...smoke import cache

@@ -8,8 +8,8 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...passes import masks
 from ...shot.fire import flame_clock
-from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import flame_field, glow, haze, infrared
 

@@ -3,7 +3,7 @@
 All are instances on points. Float attributes of a point are `scale` (height, m), `width` (ratio to the
 model's width), `rotation`, `pitch` and `roll` (radians), `arrival_time`, `elevation`, `canopy_fuel`, `tint`,
 `hue`, `dead`, `scorch`, `torched`, and the indices of its models, `model` and `snag_model`; trees also have
-an instance number `number` (see `shot.passes.masks`). Plants outside of all views are culled; in
+an instance number `number` (see `passes.masks`). Plants outside of all views are culled; in
 renders `frame_culling` also hides trees outside of the frame's views.
 """
 
@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from ...blender import compat, nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
+from ...passes import masks
 from ...shot.cameras.rigs.satellite import HEIGHT
-from ...shot.passes import masks
 from ...shot.shot import Shot
 from ...shot.terrain import noise
 from ...shot.terrain.terrain import NEVER

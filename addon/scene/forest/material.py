@@ -11,8 +11,8 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...passes import masks
 from ...shot.fire import heat_release
-from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import flame_field, flame_gaps, granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness

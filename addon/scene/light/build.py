@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
+from ...passes import masks
 from ...shot.light import exposure, smoke_haze
 from ...shot.light.sky import DAY_SKY, State, state
-from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import curved_air, haze, infrared, space_sky
 from . import night_sky

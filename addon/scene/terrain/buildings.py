@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
+from ...passes import masks
 from ...run.buildings import Building, blocks, rings
 from ...run.buildings.rings import Rings
-from ...shot.passes import masks
 from ...shot.shot import Shot
 from ...shot.surface import footprints
 from ...shot.terrain import noise

@@ -11,7 +11,7 @@ import bpy
 from ...blender import nodes
 from ...blender.nodes import Tree, Value
 from ...blender.owned import Stage
-from ...shot.passes import masks
+from ...passes import masks
 from ...shot.shot import Shot
 from .. import curved_air, haze, infrared, space_sky, temperature
 from ..curved_air import Earth

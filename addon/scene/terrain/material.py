@@ -12,7 +12,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
-from ...shot.passes import masks
+from ...passes import masks
 from ...shot.shot import Shot
 from ...shot.surface import orthophoto
 from .. import flame_gaps, haze

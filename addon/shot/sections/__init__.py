@@ -3,7 +3,7 @@
 The scene file, its validation, the panels, the JSON Schema and the fingerprints of products derive from here.
 Times are UTC, lengths metres and angles degrees. A key affects the aspect of its section unless it names
 others: "camera" for everything of a camera, and in [render] "picture" (all pictures), "grain" (all but data),
-"colour" (rgb) and "thermal". "film" is for films only, "passes" for the lists in sidecars.
+"colour" (rgb) and "thermal". "film" is for films only, "sidecar" for the lists in sidecars.
 """
 
 # ruff: noqa: RUF009 (`key` makes a field)

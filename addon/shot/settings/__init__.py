@@ -37,7 +37,7 @@ class Camera:
     name: str = key("drone", "name of the camera, its folder and its files", check=file_name, affects=())
     rig: Any = one_of(rigs.kinds, "kind of camera", tag="kind", default_kind=rigs.USUAL)
     passes: tuple[str, ...] = key(
-        (), 'passes, such as ["rgb"]; empty: as in [render]', choices=passes.helps, affects=("passes",)
+        (), 'passes, such as ["rgb"]; empty: as in [render]', choices=passes.helps, affects=("sidecar",)
     )
     frames: FrameList = key(FrameList(), 'frames, such as "24" or "1-48:4"; empty: all')
     resolution: tuple[int, int] | None = key(
@@ -124,7 +124,7 @@ class Render:
         "passes that cameras record",
         choices=passes.helps,
         check=_at_least_one,
-        affects=("passes",),
+        affects=("sidecar",),
     )
     video: bool = key(True, "write films of cameras with more than one frame", affects=())
     film: str = key(

@@ -10,10 +10,10 @@ from firetwin.errors import InputError, UsageError
 from firetwin.imaging.credits import Credits
 from firetwin.jobs.tiles import make, selection, source
 from firetwin.render import credits, fingerprint
-from firetwin.render.finish import finisher
 from firetwin.scene.terrain import build as ground_build
 from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import mesh
+from firetwin.shot import passes
 from firetwin.shot.terrain import tile_heights
 from firetwin.shot.tiles import tile_cut
 from firetwin.tiles import geoid
@@ -86,7 +86,7 @@ def test_sidecars_name_credits_and_missing_tiles(tiled, tmp_path):
     shot = tiled.for_camera(camera)
     cut = replace(tile_cut.of_shot(shot), missing=("x.glb: gone",))
     tile_cut.write(cut, tile_cut.location(shot))
-    finisher("pose")({"json": tmp_path / "p.json"}, {}, shot, camera, 1)
+    passes.finish("pose", {"json": tmp_path / "p.json"}, {}, shot, camera, 1)
     said = json.loads((tmp_path / "p.json").read_text())
     assert (said["credits"], said.get("services")) == (["Somebody"], None)
     assert said["tiles"] == {"missing": ["x.glb: gone"], "error": cut.error}

@@ -7,20 +7,18 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging import sheet as _sheet
-from firetwin.render import dataset, exr_tags, fingerprint, plan, verify
-from firetwin.render.finish import _map, finisher, pose
-from firetwin.render.finish import fused as fused_pass
-from firetwin.render.finish import masks as finish_masks
+from firetwin.passes import _map, masks, pose
+from firetwin.passes import fused as fused_pass
+from firetwin.render import dataset, fingerprint, plan, verify
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
 from firetwin.run import info
-from firetwin.shot import passes
+from firetwin.shot import exr_tags, passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.cameras.rigs.minimap import Minimap
 from firetwin.shot.cameras.rigs.mounted import Mounted
 from firetwin.shot.cameras.rigs.satellite import Satellite
-from firetwin.shot.passes import masks
 from firetwin.shot.sections import TerrainSettings, Time
 from firetwin.shot.settings import Camera, Render, Settings, mount, scene_file
 from firetwin.shot.shot import Shot
@@ -110,13 +108,13 @@ def test_classes_and_numbers_survive_smoke_exactly():
     clear = rng.uniform(0.001, 1.0, kind.shape).astype(np.float32)
     code = np.stack([number % 4096, np.ones(kind.shape), kind + 8 * (number // 4096)], axis=-1)
     pixels = (code.astype(np.float32) * clear[..., None]).astype(np.float32)
-    found, instance, through, surface = finish_masks.classes(pixels)
+    found, instance, through, surface = masks.classes(pixels)
     assert np.array_equal(instance, number)
     assert np.array_equal(found[clear > 0.5], kind[clear > 0.5])
     assert np.all(found[clear < 0.5] == masks.SMOKE)
     assert np.array_equal(through, clear)
     assert np.array_equal(surface, kind)  # also behind smoke
-    found, instance, _, _ = finish_masks.classes(np.zeros((2, 2, 3), np.float32))
+    found, instance, _, _ = masks.classes(np.zeros((2, 2, 3), np.float32))
     assert np.all(found == masks.SMOKE)
     assert np.all(instance == 0)
 
@@ -140,7 +138,7 @@ def test_masks_are_written_by_name_and_in_one_colour_each(tmp_path, monkeypatch)
     kinds = np.arange(len(masks.NAMES))[None].repeat(2, 0)
     pixels = np.stack([np.full(kinds.shape, 7.0), np.ones(kinds.shape), kinds], axis=-1)
     sensor.write_image(files["exr"], pixels)
-    finisher("masks")(files, {}, None, "drone", 1)
+    passes.finish("masks", files, {}, None, "drone", 1)
     kind, clear, instance, surface = np.moveaxis(sensor.read_image(files["exr"]), -1, 0)
     assert np.array_equal(kind, kinds)
     assert np.all(clear == 1.0)
@@ -270,7 +268,7 @@ def fused(shot, tmp_path):
         sensor.write_image(needed["rgb"]["png"], np.full((18, 32, 3), (1.0, 0.0, 0.0)))
         sensor.write_image(needed["thermal"]["exr"], kelvin)
         sensor.write_image(needed["depth"]["exr"], depth)
-        finisher("fused")({"png": tmp_path / "fused.png"}, needed, made, "drone", 3)
+        passes.finish("fused", {"png": tmp_path / "fused.png"}, needed, made, "drone", 3)
         return sensor.read_image(tmp_path / "fused.png")[..., :3]
 
     return make
@@ -337,7 +335,7 @@ def test_a_place_is_at_the_same_point_of_every_panel_of_a_mount(shot, tmp_path):
     hot = np.where(pictures["infrared"], 1200.0, 300.0)
     sensor.write_image(needed["thermal"]["exr"], np.stack([hot, hot], axis=-1))
     sensor.write_image(needed["depth"]["exr"], np.full((360, 640, 2), 800.0))
-    finisher("fused")({"png": tmp_path / "f.png"}, needed, made.for_camera("drone"), "drone", 3)
+    passes.finish("fused", {"png": tmp_path / "f.png"}, needed, made.for_camera("drone"), "drone", 3)
     shown = sensor.read_image(tmp_path / "f.png")[..., :3]
     sheet = _sheet.Sheet(1280, 720)
     wide, high = sheet.wide * sheet.unit, sheet.high * sheet.unit

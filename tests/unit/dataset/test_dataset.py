@@ -9,10 +9,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from firetwin.errors import InputError
+from firetwin.passes import masks
 from firetwin.render import dataset, verify
-from firetwin.render.finish import finisher
 from firetwin.shot import passes
-from firetwin.shot.passes import masks
 from firetwin.shot.settings import Render, Settings
 from firetwin_core import sensor
 
@@ -116,7 +115,7 @@ def test_the_files_hold_millimetres_and_static_pixels(tmp_path):
     names = ["class", "clear", "instance", "surface"]
     sensor.write_image(needed["masks"]["exr"], np.stack([kind, *[kind * 0.0] * 3], -1), None, names)
     files = {"npy": tmp_path / "frame.npy", "png": tmp_path / "frame.png"}
-    finisher("nerfstudio")(files, needed, SimpleNamespace(), "drone", 1)
+    passes.finish("nerfstudio", files, needed, SimpleNamespace(), "drone", 1)
     depth = np.load(files["npy"])
     assert depth.dtype == np.float32
     metres = depth * 0.001

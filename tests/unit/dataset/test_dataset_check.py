@@ -11,7 +11,7 @@ import pytest
 from firetwin import cli
 from firetwin.dataset import about, check, files, finish, formats, labels, sensor, sums, truth, twins
 from firetwin.errors import InputError
-from firetwin.shot.passes import masks
+from firetwin.passes import masks
 from PIL import Image
 
 COUNT = 9

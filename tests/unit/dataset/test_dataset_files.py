@@ -12,7 +12,7 @@ from firetwin.dataset.files import Masks
 from firetwin.dataset.sensor import SensorSettings
 from firetwin.dataset.truth import Annotation, CameraPose, Truth
 from firetwin.errors import InputError
-from firetwin.shot.passes import masks as classes
+from firetwin.passes import masks as classes
 
 KEYS = {"noise": 1, "thermal noise": 2}
 POSE = CameraPose(64, 48, 60.0, 60.0, 32.0, 24.0, np.eye(4).tolist(), 38.8, -120.6, 900.0, 38.7, -120.5, 0.0)

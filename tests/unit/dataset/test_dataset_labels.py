@@ -6,7 +6,7 @@ import numpy as np
 import plain_samples
 import pytest
 from firetwin.dataset import labels, survey, truth
-from firetwin.shot.passes import masks
+from firetwin.passes import masks
 from hypothesis import given, settings
 from hypothesis.extra import numpy as arrays
 

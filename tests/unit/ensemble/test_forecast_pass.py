@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging import split_screen
+from firetwin.passes import _forecast_drawing, _forecast_labels, _forecast_text, outcomes
 from firetwin.render import fingerprint, plan
-from firetwin.render.finish import _forecast_drawing, _forecast_labels, _forecast_text, finisher, outcomes
 from firetwin.run.ensemble import ensemble, write
 from firetwin.run.ensemble.choice import LINES
 from firetwin.run.ensemble.manifest import LeftOut, Manifest, Member
@@ -253,7 +253,7 @@ def test_a_picture_shows_counts_on_the_ground_and_hatches_what_was_not_simulated
     original = split_screen.sheet
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(split_screen, "sheet", lambda *all, **more: given.append(all) or original(*all, **more))
-        finisher("forecast")(files, needed, shot, "drone", 3)
+        passes.finish("forecast", files, needed, shot, "drone", 3)
     (((picture,), (keys,), said, _below),) = given
     assert sensor.read_image(files["png"]).shape[:2] == (48, 64)
     blue = picture[..., 2] - picture[..., 0]
@@ -348,7 +348,7 @@ def test_outcomes_are_made_of_the_forecast_pictures_of_all_runs(scene, tmp_path,
         needed[name] = {"png": tmp_path / f"{level}.png"}
         sensor.write_image(needed[name]["png"], np.full((48, 64, 3), level, np.float32))
     for frame, level in ((1, 0.2), (40, 0.7)):
-        finisher("outcomes")({"png": tmp_path / "o.png"}, needed, shot, "drone", frame)
+        passes.finish("outcomes", {"png": tmp_path / "o.png"}, needed, shot, "drone", frame)
         assert sensor.read_image(tmp_path / "o.png")[40, 20, 0] == pytest.approx(level, abs=0.01)
     assert [corner[:2] for corner in corners] == [
         ["outcome 1 of 2 shown", "member 01 of 4"],
@@ -368,7 +368,7 @@ def test_a_split_names_each_member_with_its_area_and_has_one_legend(scene, tmp_p
     monkeypatch.setattr(
         split_screen, "sheet", lambda *all, **more: given.append(all) or original(*all, **more)
     )
-    finisher("forecast_split")({"png": tmp_path / "s.png"}, needed, shot, "drone", 3)
+    passes.finish("forecast_split", {"png": tmp_path / "s.png"}, needed, shot, "drone", 3)
     (((*pictures, last), keys, said, _below),) = given
     assert len(pictures) == 3
     assert np.ptp(last) == 0.0

@@ -65,7 +65,7 @@ def test_links_lead_to_files(page):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 def test_paths_of_the_repository_exist(page):
-    """Paths in code, such as `addon/shot/passes/`; `examples/out` is an output."""
+    """Paths in code, such as `addon/passes/`; `examples/out` is an output."""
     named = re.findall(r"`((?:addon|cpp|tests|docs|examples)/[\w./]+)`", page.read_text("utf-8"))
     missing = [name for name in named if not name.startswith("examples/out") and not (ROOT / name).exists()]
     assert not missing

@@ -24,7 +24,7 @@ NEVER_BPY = (
     ),
     *("firetwin.cli", "firetwin.command", "firetwin.commands", "firetwin.data"),
     *("firetwin.run", "firetwin.stations", "firetwin.tiles"),
-    *("firetwin.imaging", "firetwin.shot", "firetwin.smoke", "firetwin.auto_framing"),
+    *("firetwin.imaging", "firetwin.passes", "firetwin.shot", "firetwin.smoke", "firetwin.auto_framing"),
     *(
         "firetwin.jobs",
         "firetwin.farm",
@@ -37,7 +37,7 @@ NEVER_BPY = (
     *(
         f"firetwin.render.{name}"
         for name in (
-            *("crate", "fingerprint", "finish", "films", "manifest", "picture", "plan", "png"),
+            *("crate", "fingerprint", "films", "manifest", "picture", "plan", "png"),
             *("sharing", "store", "verify"),
         )
     ),

@@ -6,8 +6,8 @@ import shapely
 from firetwin.data import sample, stored
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging import split_screen
+from firetwin.passes import difference
 from firetwin.render import fingerprint, plan
-from firetwin.render.finish import difference
 from firetwin.run import arrival_grid, front
 from firetwin.run.score import shapes
 from firetwin.shot import comparison, passes

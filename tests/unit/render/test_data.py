@@ -5,11 +5,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from firetwin.render import exr_tags
-from firetwin.render.finish import data
+from firetwin.passes import data, masks
+from firetwin.shot import exr_tags
 from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.path import Path
-from firetwin.shot.passes import masks
 from firetwin_core import sensor
 
 HEIGHT, WIDTH = 18, 32

@@ -5,9 +5,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from firetwin.render import exr_clock, exr_tags
+from firetwin.render import exr_clock
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
+from firetwin.shot import exr_tags
 from firetwin_core import sensor
 
 FIRST = Picture("drone", 1, "comp")

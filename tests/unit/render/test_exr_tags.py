@@ -8,8 +8,8 @@ import made_up_film
 import numpy as np
 import pytest
 from firetwin import timecode
-from firetwin.render import exr_tags, timecode_track
-from firetwin.shot import picture_credits
+from firetwin.render import timecode_track
+from firetwin.shot import exr_tags, picture_credits
 from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.path import Path
 from firetwin.shot.settings import Render

@@ -6,9 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from firetwin.imaging import colour_bar
-from firetwin.render import exr_tags
-from firetwin.render.finish import finisher
-from firetwin.render.finish import thermal as thermal_pass
+from firetwin.passes import thermal as thermal_pass
+from firetwin.shot import exr_tags, passes
 from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.path import Path
 from firetwin.shot.fire import air_temperature
@@ -30,7 +29,7 @@ def thermal(path, radiance, **keys):
     files = {end: path / f"thermal.{end}" for end in ("exr", "png")}
     sensor.write_image(files["exr"], np.repeat(radiance[..., None], 3, axis=-1))
     settings = Settings(render=Render(thermal_low=290.0, thermal_high=1000.0), thermal=Thermal(**keys))
-    finisher("thermal")(files, {}, SimpleNamespace(settings=settings), "drone", 1)
+    passes.finish("thermal", files, {}, SimpleNamespace(settings=settings), "drone", 1)
     return sensor.read_image(files["exr"]), sensor.read_image(files["png"])[..., :3]
 
 
@@ -140,7 +139,7 @@ def finished(tmp_path, make_run):
         planar[:5] = 1e10
         sensor.write_image(needed["rgb"]["png"], rgb)
         sensor.write_image(needed["depth"]["exr"], planar)
-        finisher(name)({"png": tmp_path / "made.png"}, needed, seen, "drone", 1)
+        passes.finish(name, {"png": tmp_path / "made.png"}, needed, seen, "drone", 1)
         return [sensor.read_image(path)[..., :3] for path in (needed["rgb"]["png"], tmp_path / "made.png")]
 
     return finish
@@ -222,7 +221,7 @@ def test_hot_spots_lie_over_the_picture(tmp_path):
     sensor.write_image(needed["thermal"]["exr"], both, None, ["kelvin", "radiance"])
     settings = Settings(render=Render(thermal_low=290.0, thermal_high=800.0))
     path = tmp_path / "overlay.png"
-    finisher("overlay")({"png": path}, needed, SimpleNamespace(settings=settings), "drone", 1)
+    passes.finish("overlay", {"png": path}, needed, SimpleNamespace(settings=settings), "drone", 1)
     found = sensor.read_image(path)
     assert np.abs(found[:5] - 0.4).max() < 0.51 / 255
     hot = sensor.colour([[700.0, 400.0]], 290.0, 800.0, "ironbow", thermal_pass.KNEE)[0]
@@ -240,7 +239,7 @@ def test_eye_dome_lighting_darkens_the_sky_behind_the_ground_alone(finished):
 def test_depth_has_both_distances_by_name(tmp_path):
     path = tmp_path / "depth.exr"
     sensor.write_image(path, np.full((20, 40), 1000.0))
-    finisher("depth")({"exr": path}, {}, SimpleNamespace(paths=[view(True)]), "drone", 1)
+    passes.finish("depth", {"exr": path}, {}, SimpleNamespace(paths=[view(True)]), "drone", 1)
     planar, far = np.moveaxis(sensor.read_image(path), -1, 0)
     assert np.all(planar == 1000.0)
     assert far[0, 0] == pytest.approx(1000.0 * np.sqrt(1 + (0.5 * 39 / 40) ** 2 + (0.25 * 19 / 20) ** 2))

@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from firetwin.cli import main
-from firetwin.render.finish import finisher
+from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.fire import air_temperature
 from firetwin.shot.fire.fire import Fire
@@ -231,7 +231,7 @@ def test_a_pass_shows_the_imagers_pixels_where_they_lie_in_a_cameras_picture(
     made = {}
     for band in ("short", "long"):
         png = tmp_path / f"{band}.png"
-        finisher(f"imager_{band}")({"png": png}, depth, shot, "satellite", 1)
+        passes.finish(f"imager_{band}", {"png": png}, depth, shot, "satellite", 1)
         made[band] = sensor.read_image(png)[..., :3]
     hot = np.unravel_index(found.short.argmax(), found.short.shape)
     place = found.grid.reverse(found.row + hot[0] + 0.5, found.column + hot[1] + 0.5)

@@ -221,6 +221,11 @@ def test_the_manifest_is_written_when_there_is_something_new(finished):
         assert len(json.loads((out / manifest.NAME).read_text())["settings"]) == 2
 
 
+def showing(aspect):
+    """Passes that show an aspect, themselves or by the passes that they are made from."""
+    return {name for name, each in passes.known().items() if aspect in each.all_aspects}
+
+
 def test_a_picture_depends_on_the_settings_that_it_shows():
     def key(changed, name, run="0"):
         made = fingerprint.collect_inputs(changed, {"heat_flux.npy": run}, "drone", name)
@@ -231,20 +236,17 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
         return {name for name in passes.known() if key(changed, name) != key(SETTINGS, name)}
 
     everything = set(passes.known())
-    compared = {"split", "difference", "forecast", "outcomes", "forecast_split"}
-    lit = {"rgb", "comp", "thermal", "thermal_map", "edl", "overlay", "fused", "data"} | compared
+    filmed, lit, smoky = (showing(aspect) for aspect in ("film", "light", "smoke"))
     assert changes() == set()
     assert changes(seed=2) == everything
     assert changes(time=replace(SETTINGS.time, frames=5)) == everything
-    assert (
-        changes(time=replace(SETTINGS.time, fps=5, zone="UTC")) == {"fused"} | compared
-    )  # they tell the time
+    assert changes(time=replace(SETTINGS.time, fps=5, zone="UTC")) == filmed >= {"fused", "split"}
     assert changes(terrain=sections.TerrainSettings(apron=1.0)) == everything
     assert changes(render=s.Render(resolution=(64, 36))) == everything
-    assert changes(render=s.Render(samples=7)) == lit
+    assert changes(render=s.Render(samples=7)) == showing("grain") == lit >= {"rgb", "thermal", "edl"}
     assert changes(light=sections.Light(haze=0.5)) == lit
-    assert changes(smoke=sections.SmokeSettings(max_age=9.0)) == lit | {"masks", "nerfstudio"}
-    assert changes(render=s.Render(thermal_high=900.0)) == {"thermal", "overlay", "fused", "data"}
+    assert changes(smoke=sections.SmokeSettings(max_age=9.0)) == smoky >= lit | {"masks", "nerfstudio"}
+    assert changes(render=s.Render(thermal_high=900.0)) == showing("thermal") >= {"overlay", "data"}
     assert changes(render=s.Render(passes=("rgb",), video=False, device="cpu")) == {"pose"}
     # Built objects and their detail depend on the filmed frames.
     assert changes(cameras=(replace(CAMERAS[0], frames="1"), CAMERAS[1])) == everything
@@ -370,6 +372,12 @@ def test_the_first_reading_of_a_large_run_shows_how_far_it_is(make_run, tmp_path
     assert told[-1][2].startswith("reading the run")
 
 
+def made_from(name):
+    """Passes that a pass is made from, directly or not."""
+    needs = passes.known()[name].made_from
+    return {*needs, *(other for need in needs for other in made_from(need))}
+
+
 def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatch):
     shutil.copytree(
         code_fingerprint.PACKAGE, tmp_path / "addon", ignore=shutil.ignore_patterns("__pycache__")
@@ -387,28 +395,12 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
         after = keys()
         return {name for name in before if before[name] != after[name]}
 
-    shown = {
-        "rgb",
-        "comp",
-        "thermal",
-        "thermal_map",
-        "edl",
-        "overlay",
-        "fused",
-        "masks",
-        "nerfstudio",
-        "data",
-        "split",
-        "difference",
-        "forecast",
-        "outcomes",
-        "forecast_split",
-    }
-    assert changed("scene/smoke/material.py") == shown
-    assert changed("scene/fire/flames.py") == shown
+    assert changed("scene/smoke/material.py") == changed("scene/fire/flames.py") == showing("smoke")
+    assert changed("passes/depth.py") == {n for n in passes.known() if "depth" in (n, *made_from(n))}
     assert {"rgb", "thermal", "masks", "depth"} <= changed("scene/stations/signs.py")
     assert {"rgb", "thermal", "masks", "depth"} <= changed("stations/reading.py")
-    assert changed("imaging/colour_bar.py") == set(passes.known()) - {"rgb", "comp", "normal"}
+    finished = {n for n in passes.known() if any(passes.known()[k].finished for k in (n, *made_from(n)))}
+    assert changed("imaging/colour_bar.py") == finished >= {"depth", "split"}
     assert changed("scene/terrain/build.py") == set(passes.known())
     assert changed("scene/haze.py") == set(passes.known())
     assert changed("shot/fire/fire.py") == set(passes.known())

@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[3]
 DRONE, SATELLITE = kinds()["drone"], kinds()["satellite"]
 ASPECTS = {
     *("time", "terrain", "forest", "fire", "smoke", "light", "camera"),
-    *("picture", "colour", "grain", "thermal", "film", "passes"),
+    *("picture", "colour", "grain", "thermal", "film", "sidecar"),
 }
 
 SETTINGS = Settings(

@@ -1,0 +1,106 @@
+"""Mask pass: semantic class and instance of each pixel, as ground truth for machine learning.
+
+======== ===== =================================================================================
+class    value content
+======== ===== =================================================================================
+sky      0     rays that hit nothing
+ground   1     unburned ground, with shrubs, grass, rocks, water, and forest too far for single trees
+burned   2     ground and shrubs behind the front
+tree     3     living or burned
+smoke    4     transmits less than half of the light behind it, in green
+fire     5     flames in the air, on the ground and in crowns, and firebrands
+building 6     blocks of footprints and of stations, burned or not; buildings in 3D Tiles are ground
+======== ===== =================================================================================
+
+The EXR has `class`; `clear`, the transmittance 0..1 of smoke; `instance`, the number of the tree or
+building (0: none); and `surface`, the class behind smoke, which is 4 only behind opaque smoke. The number
+of a building is its position among the footprints, from 1. A tree has the same number in every frame,
+camera and film of a run with one `seed`: it depends on the identity of the tree (see `numbers`), not on its
+index among built trees. Tree numbers are 24-bit hashes: about n^2 / 2^25 colliding pairs are expected among
+n visible trees. The PNG shows each class in one colour. One ray goes through each pixel's centre without
+filtering, so numbers stay integers. Behind opaque smoke the instance is unknown: 0. EEVEE writes half
+floats, exact only for integers up to 2048, so `masks` rejects EEVEE.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from firetwin_core import sensor
+from numpy.typing import NDArray
+
+from ..shot import exr_tags
+from ..shot.passes import Files, RenderedPass
+from ..shot.shot import Shot
+
+ORDER = 27
+HELP = (
+    "Class masks (fire, smoke, tree, building, burned, ground, sky) and instance numbers, EXR and PNG; "
+    "a tree has the same number in all frames, cameras and films"
+)
+
+SKY, GROUND, BURNED, TREE, SMOKE, FIRE, BUILDING = range(7)
+NAMES = ("sky", "ground", "burned", "tree", "smoke", "fire", "building")
+COLOURS = (
+    (110, 170, 230),
+    (196, 178, 128),
+    (64, 56, 52),
+    (38, 112, 52),
+    (176, 176, 184),
+    (255, 96, 16),
+    (206, 72, 168),
+)
+ALIGHT = 0.3  # fraction of full flame of ground and crowns from which a pixel counts as fire
+HIDES = 0.5  # opacity from which a pixel counts as smoke
+
+
+def numbers(key: NDArray, second: NDArray) -> NDArray:
+    """Tree numbers (n,) from 1 to 2^24 - 1, exact in 32-bit floats, from two integers for each tree.
+
+    Trees of a stand have the halves of 64 random bits. A single tree per cell has the cell and 0: these are
+    unique in runs of up to 2^24 - 1 cells.
+    """
+    return 1 + (np.asarray(key, np.int64) ^ np.asarray(second, np.int64)) % (2**24 - 1)
+
+
+PASS = RenderedPass(
+    name="masks",
+    files=("exr", "png"),
+    excludes=("lamps",),
+    samples=1,
+    shading="masks",
+    channels="colour",
+    pixel_centres=True,
+    aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "fire", "smoke", "stations"}),
+)
+
+_LEAST = 1.0e-4  # transmittance of smoke below which class numbers are inexact
+
+
+def classes(pixels: NDArray) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+    """Separate pixels of `blender.nodes.mask_switch`.
+
+    Returns
+    -------
+    class, instance, transmittance, and the class of the surface behind smoke (of opaque smoke: smoke),
+    (h, w) each.
+    """
+    clear = pixels[..., 1].astype(np.float64)
+    exact = clear > _LEAST
+    low, code = (np.rint(np.where(exact, pixels[..., k] / np.where(exact, clear, 1.0), 0.0)) for k in (0, 2))
+    surface = np.where(exact, code % 8, SMOKE)
+    kind = np.where(clear > 1.0 - HIDES, surface, SMOKE)
+    return kind, low + 4096.0 * (code // 8), clear, surface
+
+
+def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
+    """Separate classes, instances and smoke, and paint the classes."""
+    names = ["class", "clear", "instance", "surface"]  # as EXR files sort them
+    kind, instance, clear, surface = classes(sensor.read_image(files["exr"]))
+    said = "class: " + ", ".join(f"{value} {name}" for value, name in enumerate(NAMES))
+    about = exr_tags.attributes(shot, camera, frame, said)
+    channels = np.stack([kind, np.clip(clear, 0.0, 1.0), instance, surface], axis=-1).astype(np.float32)
+    sensor.write_image(files["exr"], channels, about, names)
+    colours = np.array(COLOURS, np.float32) / 255.0
+    sensor.write_image(files["png"], colours[kind.astype(np.int64)])

@@ -1,0 +1,24 @@
+"""Normal pass: surface normals of terrain and trees, unit vectors x east, y north, z up in the scene's frame.
+
+Flames and smoke are excluded, as they have no surface. One ray goes through each pixel's centre. The sky is
+0. It is the mesh normal, without bump maps of materials.
+"""
+
+from __future__ import annotations
+
+from ..shot.passes import RenderedPass
+
+ORDER = 25
+HELP = "Surface normals of terrain and trees (east, north, up), 32-bit EXR"
+
+PASS = RenderedPass(
+    name="normal",
+    files=("exr",),
+    socket="Normal",
+    layer_property="use_pass_normal",
+    excludes=("smoke", "fire"),
+    samples=1,
+    channels="colour",
+    pixel_centres=True,
+    aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "stations"}),
+)
