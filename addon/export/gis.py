@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .. import files
+from .. import files, geopackage
 from ..geometry.utm import Zone
 from . import gis_geopackage, gis_project, gis_rasters, gis_styles, gis_tables
 from .gis_geopackage import Table
@@ -50,7 +50,7 @@ def _project(request: ExportRequest, tables: list[Table], rasters: list[Raster])
     fire = next((table for table in tables if table.name == "burned_area"), None)
     run = shot.run
     box = (
-        fire.bounds()
+        geopackage.bounds(fire.points())
         if fire
         else [run.longitude.min(), run.latitude.min(), run.longitude.max(), run.latitude.max()]
     )

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 
 from ..imaging import map_symbols
+from ..run import times
 from ..run.observations import Feature
-from ..stations.writing import datetime_text
 from . import fronts, places, tracks
 from .gis_geopackage import Table
 from .request import ExportRequest
 from .tracks import Track
 
+_time = functools.partial(times.iso, timespec="milliseconds")
 _TIMES = {"begin_time": "DATETIME", "end_time": "DATETIME"}
 _DIVISIONS = {
     "kind": "TEXT", "category": "TEXT", "name": "TEXT", "division": "TEXT", "type": "TEXT", "station": "TEXT",
@@ -31,8 +34,8 @@ def _fire(request: ExportRequest) -> list[Table]:
     area = Table("burned_area", "Burned area until the next time", "MULTIPOLYGON", columns)
     line = Table("fronts", "Fire front until the next time", "MULTILINESTRING", columns)
     for front in fronts.find(request):
-        end = datetime_text(front.end) if front.end else None
-        values = (datetime_text(front.begin), end, round(front.area / 1e4, 4), front.time)
+        end = _time(front.end) if front.end else None
+        values = (_time(front.begin), end, round(front.area / 1e4, 4), front.time)
         area.rows.append((front.polygons, values))
         line.rows.append((front.lines, values))
     return [area, line]
@@ -49,15 +52,15 @@ def _cameras(request: ExportRequest) -> list[Table]:
     frame = Table("camera_frames", "Camera position and direction at each frame", "POINT", columns, z=True)
     for track in tracks.find(request):
         points = track.geodetic[:, [1, 0, 2]]
-        times = [datetime_text(each) for each in track.times]
+        moments = [_time(each) for each in track.times]
         if len(points) > 1:
             measure = [each.timestamp() for each in track.times]
-            values = (times[0], times[-1], track.name, track.projection)
+            values = (moments[0], moments[-1], track.name, track.projection)
             path.rows.append((np.column_stack([points, measure]), values))
         lens = _lens(track)
         turned = np.column_stack(track.angles(request.georeference.matrix[:3, :3]))
-        for k, (number, begin) in enumerate(zip(track.frames.tolist(), times, strict=True)):
-            end = times[k + 1] if k + 1 < len(times) else None
+        for k, (number, begin) in enumerate(zip(track.frames.tolist(), moments, strict=True)):
+            end = moments[k + 1] if k + 1 < len(moments) else None
             values = (begin, end, track.name, number, *np.round(turned[k], 6).tolist(), *lens[k])
             frame.rows.append((points[[k]], values))
     return [path, frame]

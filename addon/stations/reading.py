@@ -11,9 +11,9 @@ from typing import Any, NoReturn, TypeVar
 from .. import foreign_database, limits
 from ..errors import input_error, reading
 from ..foreign_database import ForeignDatabase
+from ..geopackage import position
 from ..limits import YEARS
 from ..run.observations import geopackage
-from . import geometry
 from .records import MODES, ORIGINS, STATUSES, Area, Availability, Resource, Source, Station, Type
 from .station_file import StationFile
 
@@ -98,7 +98,7 @@ class _Reader:
         return tuple(found)
 
     def position(self, number: int, blob: Any) -> tuple[float, float]:
-        found = geometry.position(blob) if isinstance(blob, bytes) else None
+        found = position(blob) if isinstance(blob, bytes) else None
         if found is None and isinstance(blob, bytes):
             points = geopackage.points(blob)
             found = (float(points[0][1]), float(points[0][0])) if points else None

@@ -1,4 +1,4 @@
-"""Tables of a station file: the tables of a GeoPackage (OGC 12-128, version 1.4), and Firetwin's tables.
+"""Firetwin's tables of a station file, in addition to those of a GeoPackage.
 
 `station` and `area` are features; the other tables are attributes. Geometry is WGS84. Stations have the
 spatial index of the GeoPackage extension (Annex F.3), so that QGIS uses and updates it.
@@ -7,10 +7,6 @@ spatial index of the GeoPackage extension (Annex F.3), so that QGIS uses and upd
 from __future__ import annotations
 
 from .records import MODES, ORIGINS, STATUSES
-
-APPLICATION_ID = 0x47504B47  # "GPKG"
-USER_VERSION = 10400
-WGS84 = 4326
 
 FEATURES = {"station": "POINT", "area": "MULTIPOLYGON"}
 ATTRIBUTES = ("source", "type", "resource", "availability")
@@ -21,29 +17,7 @@ def _one_of(column: str, words: tuple[str, ...]) -> str:
     return f"CHECK ({column} IN ({', '.join(repr(word) for word in words)}))"
 
 
-STANDARD = """
-CREATE TABLE gpkg_spatial_ref_sys (
-  srs_name TEXT NOT NULL, srs_id INTEGER PRIMARY KEY, organization TEXT NOT NULL,
-  organization_coordsys_id INTEGER NOT NULL, definition TEXT NOT NULL, description TEXT);
-CREATE TABLE gpkg_contents (
-  table_name TEXT NOT NULL PRIMARY KEY, data_type TEXT NOT NULL, identifier TEXT UNIQUE,
-  description TEXT DEFAULT '', last_change DATETIME NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ','now')),
-  min_x DOUBLE, min_y DOUBLE, max_x DOUBLE, max_y DOUBLE, srs_id INTEGER,
-  CONSTRAINT fk_gc_r_srs_id FOREIGN KEY (srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id));
-CREATE TABLE gpkg_geometry_columns (
-  table_name TEXT NOT NULL, column_name TEXT NOT NULL, geometry_type_name TEXT NOT NULL,
-  srs_id INTEGER NOT NULL, z TINYINT NOT NULL, m TINYINT NOT NULL,
-  CONSTRAINT pk_geom_cols PRIMARY KEY (table_name, column_name),
-  CONSTRAINT uk_gc_table_name UNIQUE (table_name),
-  CONSTRAINT fk_gc_tn FOREIGN KEY (table_name) REFERENCES gpkg_contents(table_name),
-  CONSTRAINT fk_gc_srs FOREIGN KEY (srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id));
-CREATE TABLE gpkg_extensions (
-  table_name TEXT, column_name TEXT, extension_name TEXT NOT NULL, definition TEXT NOT NULL,
-  scope TEXT NOT NULL,
-  CONSTRAINT ge_tce UNIQUE (table_name, column_name, extension_name));
-"""
-
-_OURS = f"""
+TABLES = f"""
 CREATE TABLE source (
   id INTEGER PRIMARY KEY, name TEXT NOT NULL, licence TEXT NOT NULL, retrieved TEXT NOT NULL,
   url TEXT NOT NULL, sha256 TEXT NOT NULL);
@@ -72,8 +46,6 @@ CREATE TABLE area (
   station INTEGER NOT NULL REFERENCES station(fid));
 CREATE VIRTUAL TABLE {INDEX} USING rtree(id, minx, maxx, miny, maxy);
 """
-
-TABLES = STANDARD + _OURS
 
 _BOX = "ST_MinX(NEW.geom), ST_MaxX(NEW.geom), ST_MinY(NEW.geom), ST_MaxY(NEW.geom)"
 _NEW, _OLD = (f"({row}.geom NOTNULL AND NOT ST_IsEmpty({row}.geom))" for row in ("NEW", "OLD"))
@@ -110,27 +82,6 @@ TRIGGERS = (
     + _trigger("delete", "DELETE", "OLD.geom NOT NULL", _DELETE)
 )
 """Triggers that update the spatial index; their functions come from the editing program, such as QGIS."""
-
-_WKT = (
-    'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563,AUTHORITY["EPSG","7030"]],'
-    'AUTHORITY["EPSG","6326"]],PRIMEM["Greenwich",0,AUTHORITY["EPSG","8901"]],'
-    'UNIT["degree",0.0174532925199433,AUTHORITY["EPSG","9122"]],AUTHORITY["EPSG","4326"]]'
-)
-
-WKT_3D = (
-    'GEOGCS["WGS 84",DATUM["World Geodetic System 1984",SPHEROID["WGS 84",6378137,298.257223563,'
-    'AUTHORITY["EPSG","7030"]],AUTHORITY["EPSG","6326"]],PRIMEM["Greenwich",0,AUTHORITY["EPSG","8901"]],'
-    'UNIT["degree",0.0174532925199433,AUTHORITY["EPSG","9122"]],AXIS["Geodetic latitude",NORTH],'
-    'AXIS["Geodetic longitude",EAST],AXIS["Ellipsoidal height",UP],AUTHORITY["EPSG","4979"]]'
-)
-"""WGS84 with heights above the ellipsoid (EPSG:4979)."""
-
-SYSTEMS = (
-    ("WGS 84 geodetic", WGS84, "EPSG", WGS84, _WKT, "longitude and latitude in degrees on WGS 84"),
-    ("Undefined Cartesian SRS", -1, "NONE", -1, "undefined", "undefined Cartesian coordinates"),
-    ("Undefined geographic SRS", 0, "NONE", 0, "undefined", "undefined geographic coordinates"),
-)
-"""Rows of gpkg_spatial_ref_sys; the standard requires all of them."""
 
 EXTENSION = (
     "station",

@@ -3,7 +3,7 @@
 import json
 import sqlite3
 
-from firetwin.stations import geometry
+from firetwin import geopackage
 
 HIFLD_COLUMNS = (
     *("X", "Y", "OBJECTID", "ID", "SECCLASS", "NAME", "TELEPHONE", "ADDRESS", "ADDRESS2", "CITY", "STATE"),
@@ -82,7 +82,7 @@ def write_usgs(path):
         base.execute("INSERT INTO gpkg_geometry_columns VALUES ('Struct_Point', 'SHAPE', 4269)")
         base.execute(f"CREATE TABLE Struct_Point (OBJECTID INTEGER PRIMARY KEY, SHAPE, {', '.join(columns)})")
         for x, y, row in USGS_ROWS:
-            shape = None if x is None else geometry.point(y, x)
+            shape = None if x is None else geopackage.point(y, x)
             marks = ", ".join("?" * (len(columns) + 1))
             base.execute(
                 f"INSERT INTO Struct_Point (SHAPE, {', '.join(columns)}) VALUES ({marks})",

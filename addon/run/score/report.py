@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import html as markup
 from collections.abc import Iterable, Iterator, Sequence
 from datetime import datetime
 from typing import Any
 
 from firetwin_core.run import Run
 
-from ...escaped import escaped
+from ...html_text import quote
 from .. import times
 from . import plots, shapes, used
 from .grid import ScoreGrid
@@ -49,15 +48,10 @@ dt{font-weight:600}dd{margin:0;color:var(--soft)}
 """
 
 
-def escape(text: str) -> str:
-    """Escape text for an element or an attribute, including control and bidirectional characters."""
-    return markup.escape(escaped(text))
-
-
 def html(run: Run, results: dict[str, Any], seen: Any, other: Run | None = None) -> str:
     """Report of the scores `found` of a run against observations `seen` or against another run."""
     grid = ScoreGrid.from_run(run)
-    name = escape(run.name)
+    name = quote(run.name)
     body = "\n".join(
         part
         for parts in (
@@ -97,11 +91,11 @@ def _head(run: Run, results: dict[str, Any], other: Run | None) -> Iterator[str]
     zone = results["zone"]
     first, last = (times.text(times.utc(run, float(run.times[i])), zone) for i in (0, -1))
     names = ", ".join(results["against"])
-    yield f"<h1>{escape(run.name)}</h1>"
-    yield f'<p class="soft">{first} to {last} &middot; against {escape(names or "reported areas")}</p>'
+    yield f"<h1>{quote(run.name)}</h1>"
+    yield f'<p class="soft">{first} to {last} &middot; against {quote(names or "reported areas")}</p>'
     made_up = [made.name for made in (run, other) if made is not None and made.synthetic]
     if made_up:
-        who = "Both runs are" if len(made_up) > 1 else f"{escape(made_up[0])} is"
+        who = "Both runs are" if len(made_up) > 1 else f"{quote(made_up[0])} is"
         yield (
             f'<p class="warn"><b>{"This run is" if run.synthetic and not other else who} synthetic:</b> '
             "not the output of a fire model. Scores show that the tools work; they say nothing about the "
@@ -114,13 +108,13 @@ def _uses(results: dict[str, Any]) -> Iterator[str]:
         return
     yield "<h2>Observations</h2>"
     if none := used.nothing(results["uses"]):
-        yield f'<p class="warn">{escape(none[:1].upper() + none[1:])}.</p>'
+        yield f'<p class="warn">{quote(none[:1].upper() + none[1:])}.</p>'
     yield (
         '<p class="soft">Used: in the run\'s grid, from its first time to its last. Before, after: in the '
         "grid at other times. Outside: not in the grid.</p>"
     )
     rows = (
-        [escape(row["source"]), row["kind"], *(f"{row[fate]:,}" for fate in used.FATES)]
+        [quote(row["source"]), row["kind"], *(f"{row[fate]:,}" for fate in used.FATES)]
         for row in results["uses"]
     )
     yield _table(("file", "what", *used.FATES), rows, text=("what",))
@@ -147,7 +141,7 @@ def _maps(run: Run, grid: ScoreGrid, results: dict[str, Any], seen: Any, other: 
             f'<figure><img alt="map" src="{plots.overlap(run, grid, here, there, frame)}">'
             f"<figcaption><b>{local(row['time'], results['zone'])}</b><br>"
             f"Sorensen {_number(scores['sorensen'])}, area {_signed(scores['area_bias'])}"
-            f"{'' if other else ', ' + escape(row['source'])}</figcaption></figure>"
+            f"{'' if other else ', ' + quote(row['source'])}</figcaption></figure>"
         )
     yield "</div>"
 
@@ -156,7 +150,7 @@ def _kinds(run: Run, other: Run | None) -> tuple[str, str, str]:
     """Build the legend of map colours; a comparison of two runs has neither hits nor misses."""
     if other is None:
         return "burned in both: hits", "burned in this run alone: false alarms", "seen burned alone: misses"
-    return "burned in both", f"only in {escape(run.name)}", f"only in {escape(other.name)}"
+    return "burned in both", f"only in {quote(run.name)}", f"only in {quote(other.name)}"
 
 
 def _pair(
@@ -197,7 +191,7 @@ def _scores(results: dict[str, Any], area: Measure = ACRES, distance: Measure = 
             "between two runs none of it is right or wrong.</p>"
         )
     if results["dates"]:
-        yield "<dl>" + "".join(f"<dt>{n}</dt><dd>{escape(text)}</dd>" for n, text in _HELP.items()) + "</dl>"
+        yield "<dl>" + "".join(f"<dt>{n}</dt><dd>{quote(text)}</dd>" for n, text in _HELP.items()) + "</dl>"
 
 
 def _score_row(
@@ -228,7 +222,7 @@ def _reported(run: Run, grid: ScoreGrid, results: dict[str, Any]) -> Iterator[st
                 _area(row["run"], abs(row["polygons"] - row["run"])),
                 ACRES.format(row["reported"]),
                 _signed(row["difference"]),
-                escape(row["source"]) + (f"<small>{escape(row['note'])}</small>" if row["note"] else ""),
+                quote(row["source"]) + (f"<small>{quote(row['note'])}</small>" if row["note"] else ""),
             ]
             for row in rows
         ),
@@ -245,7 +239,7 @@ def _reported(run: Run, grid: ScoreGrid, results: dict[str, Any]) -> Iterator[st
 
 def _more(results: dict[str, Any]) -> Iterator[str]:
     if results["arrival"]:
-        yield f"<h2>Arrival times</h2><p>{escape(arrival(results))}.</p>"
+        yield f"<h2>Arrival times</h2><p>{quote(arrival(results))}.</p>"
     if results["detections"]:
         yield "<h2>Detections by satellites</h2>"
         yield (
@@ -274,7 +268,7 @@ def _foot(results: dict[str, Any]) -> Iterator[str]:
         f"polygons in {results['projection']}",
         "scores as in Duff, Chong and Tolhurst, Environmental Modelling & Software 83 (2016)",
     ]
-    yield "<h2>To know</h2><ul>" + "".join(f"<li>{escape(note)}</li>" for note in notes) + "</ul>"
+    yield "<h2>To know</h2><ul>" + "".join(f"<li>{quote(note)}</li>" for note in notes) + "</ul>"
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]], text: Sequence[str] = ()) -> str:

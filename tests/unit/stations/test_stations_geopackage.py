@@ -6,9 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from firetwin import geopackage as firetwin_geopackage
 from firetwin.errors import InputError
 from firetwin.run.observations import geopackage
-from firetwin.stations import geometry, reading, schema, writing
+from firetwin.stations import reading, schema, writing
 from firetwin.stations.records import Area
 from random_stations import random_stations
 
@@ -114,15 +115,15 @@ def test_the_index_of_stations_finds_them_and_follows_edits(file):
     base = sqlite3.connect(path)
     for k, name in enumerate(("MinX", "MaxX", "MinY", "MaxY")):  # as GDAL and QGIS have them
         at = k // 2
-        base.create_function(f"ST_{name}", 1, lambda blob, at=at: geometry.position(blob)[1 - at])
-    base.create_function("ST_IsEmpty", 1, lambda blob: geometry.position(blob) is None)
+        base.create_function(f"ST_{name}", 1, lambda blob, at=at: firetwin_geopackage.position(blob)[1 - at])
+    base.create_function("ST_IsEmpty", 1, lambda blob: firetwin_geopackage.position(blob) is None)
 
     def indexed():
         return dict(base.execute(f"SELECT id, minx FROM {schema.INDEX}").fetchall())
 
     assert indexed() == {each.id: pytest.approx(each.longitude, rel=1e-6) for each in station_file.stations}
     number = station_file.stations[0].id
-    base.execute("UPDATE station SET geom = ? WHERE fid = ?", (geometry.point(10.0, 20.0), number))
+    base.execute("UPDATE station SET geom = ? WHERE fid = ?", (firetwin_geopackage.point(10.0, 20.0), number))
     assert indexed()[number] == 20.0
     base.execute("PRAGMA foreign_keys = OFF")
     base.execute("UPDATE station SET fid = 999 WHERE fid = ?", (number,))
@@ -133,7 +134,7 @@ def test_the_index_of_stations_finds_them_and_follows_edits(file):
     base.execute(
         "INSERT INTO station SELECT 5, ?, name, kind, agency, address, source, source_id, origin, picture, "
         "staffing FROM station LIMIT 1",
-        (geometry.point(1.0, 2.0),),
+        (firetwin_geopackage.point(1.0, 2.0),),
     )
     assert indexed()[5] == 2.0
     base.close()
