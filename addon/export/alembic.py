@@ -47,7 +47,7 @@ def _plain(track: Track) -> dict[str, Any]:
         "frames": track.frames.tolist(),
         "matrix": matrix.tolist(),
         "focal": track.focal.tolist(),
-        "sensor": [track.sensor, track.sensor * float(track.half[0, 1] / track.half[0, 0])],
+        "sensor": [track.sensor, track.sensor * track.aspect],
     }
 
 

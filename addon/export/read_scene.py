@@ -17,13 +17,11 @@ from ..blender.owned import Stage
 from ..scene.forest import biomes, models
 from ..scene.forest.levels import LEVELS
 from ..scene.forest.material import LOW_BARE_AFTER, TORCHING, burning_share
-from ..shot.cameras.path import Path, clip
 from ..shot.shot import Shot
 from ..shot.terrain.terrain import NEVER
-from . import mesh_order
+from . import mesh_order, tracks
 from .scene_content import (
     LOOKS,
-    CameraMove,
     FlamePoints,
     Floats,
     Plants,
@@ -36,7 +34,6 @@ from .scene_content import (
 PLANTS = ("Trees", "Understorey", "Grass")
 _LOOKS = {"Foliage": 0, "Bark": 1, "Snag": 2, "Rock": 3, "Grass": 4}  # by the name of Firetwin's materials
 _CHAR, _ROCK = (0.020, 0.018, 0.017), (0.26, 0.25, 0.24)  # means of the materials' colours
-_WIDTH, _HEIGHT = 0, 1
 
 
 def read(shot: Shot, stage: Stage, frames: Sequence[int], smoke: Sequence[SmokeLayer] = ()) -> SceneContent:
@@ -60,7 +57,7 @@ def read(shot: Shot, stage: Stage, frames: Sequence[int], smoke: Sequence[SmokeL
         prototypes=library.prototypes,
         plants=plants,
         flames=_read_flames(shot, stage),
-        cameras=[read_camera(shot, view, numbers) for view in shot.paths],
+        cameras=[tracks.make(shot, view, numbers) for view in shot.paths],
         smoke=list(smoke),
     )
 
@@ -266,31 +263,4 @@ def _read_flames(shot: Shot, stage: Stage) -> FlamePoints | None:
     place = read_values(obj.data, "position", 3)
     return FlamePoints(
         place, arrival, residence, length, width, tilt, kelvin, intensity, seed, wind=shot.wind
-    )
-
-
-def read_camera(shot: Shot, view: Path, frames: NDArray[np.int64]) -> CameraMove:
-    """Read the poses and the lens of a camera in these frames, from its path."""
-    index, halves = frames - 1, view.halves[frames - 1]
-    perspective = (view.perspective or view.meet > 0.0) and not view.around
-    aspect = view.half[_HEIGHT] / view.half[_WIDTH]
-    if view.around:
-        kind, focal = "panorama", np.zeros(len(frames))
-    elif perspective:
-        kind, focal = "perspective", 0.5 * view.sensor * (view.meet or 1.0) / halves[:, _WIDTH]
-    else:
-        kind, focal = "orthographic", np.zeros(len(frames))
-    planes = view.clips if view.clips is not None else None
-    return CameraMove(
-        name=view.camera.name,
-        frames=frames,
-        position=view.position[index],
-        rotation=view.rotation[index],
-        focal_length=focal,
-        sensor=(view.sensor, view.sensor * aspect),
-        swath=(0.0, 0.0)
-        if perspective or view.around
-        else (2.0 * view.half[_WIDTH], 2.0 * view.half[_HEIGHT]),
-        clip=np.tile(clip(view, shot.ground), (len(frames), 1)) if planes is None else planes[index],
-        projection=kind,
     )

@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.camera_track import CameraTrack
+
 Array = NDArray[np.float64]
 Floats = NDArray[np.float32]
 Numbers = NDArray[np.int64]
@@ -178,43 +180,6 @@ class FlamePoints:
 
 
 @dataclass(frozen=True)
-class CameraMove:
-    """Camera of a shot in f frames.
-
-    Attributes
-    ----------
-    name
-        Name in the scene file.
-    frames
-        (f,) frame numbers, from 1.
-    position
-        (f, 3) m.
-    rotation
-        (f, 3, 3) matrices; their columns are the camera's right, up and back.
-    focal_length
-        (f,) mm; 0 for an orthographic camera and for a panorama.
-    sensor
-        Width and height of the sensor, mm.
-    swath
-        Width and height (m) of an orthographic picture; 0 in perspective.
-    clip
-        (f, 2) near and far clip planes, m.
-    projection
-        "perspective", "orthographic" or "panorama".
-    """
-
-    name: str
-    frames: Numbers
-    position: Array
-    rotation: Array
-    focal_length: Array
-    sensor: tuple[float, float]
-    swath: tuple[float, float]
-    clip: Array
-    projection: str
-
-
-@dataclass(frozen=True)
 class SmokeLayer:
     """Smoke volumes of one layer.
 
@@ -254,5 +219,5 @@ class SceneContent:
     prototypes: list[Prototype]
     plants: list[Plants]
     flames: FlamePoints | None
-    cameras: list[CameraMove]
+    cameras: list[CameraTrack]
     smoke: list[SmokeLayer]

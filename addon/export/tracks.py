@@ -1,61 +1,36 @@
-"""Camera tracks of an export: place, rotation and lens of each camera in its frames."""
+"""Camera tracks of an export, with UTC times and positions on the Earth."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..ellipsoid import enu_axes
-from ..shot.cameras.path import Path
+from ..geometry.camera_track import CameraTrack
+from ..shot.cameras.path import Path, clip
+from ..shot.shot import Shot
 from .request import ExportRequest
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Track:
-    """Track of a camera.
+class Track(CameraTrack):
+    """Track of a camera on the Earth.
 
     Attributes
     ----------
-    name
-        Name of the camera.
-    frames
-        Exported frames (n,) that the camera films, from 1.
     times
         UTC times of the frames.
-    position
-        (n, 3) scene positions, m.
-    rotation
-        (n, 3, 3) rotation matrices; their columns are the camera's right, up and back in the scene.
     geodetic
-        (n, 3) latitude, longitude (degrees) and height above the ellipsoid, m.
-    half
-        (n, 2) tangents of half the horizontal and vertical angles of view; half the width and height, m, of
-        orthographic pictures; half the angles, radians, of panoramas.
-    sensor
-        Sensor width, mm.
-    projection
-        "perspective", "orthographic" or "panorama".
+        (f, 3) latitude, longitude (degrees) and height above the ellipsoid, m.
     """
 
-    name: str
-    frames: NDArray[np.int64]
     times: tuple[datetime, ...]
-    position: Array
-    rotation: Array
     geodetic: Array
-    half: Array
-    sensor: float
-    projection: str
-
-    @property
-    def focal(self) -> Array:
-        """Focal lengths (n,) of a perspective camera, mm."""
-        return 0.5 * self.sensor / self.half[:, 0]
 
     def angles(self, ecef_axes: Array) -> tuple[Array, Array, Array]:
         """Compute heading, tilt and roll (n,) at the camera's own east, north and up, degrees.
@@ -93,17 +68,23 @@ def find(request: ExportRequest) -> list[Track]:
 def _track(request: ExportRequest, path: Path) -> Track:
     shot = request.shot
     frames = np.array(sorted({*shot.frames_of(path.camera)} & {*request.frames}), np.int64)
+    track = make(shot, replace(path, meet=0.0), frames)  # very distant: counts as orthographic
+    times = tuple(shot.utc(int(frame)) for frame in frames)
+    return Track(**vars(track), times=times, geodetic=request.georeference.geodetic(track.position))
+
+
+def make(shot: Shot, path: Path, frames: NDArray[np.int64]) -> CameraTrack:
+    """Take these frames of a path."""
     at = frames - 1
-    position = path.position[at]
-    kind = "panorama" if path.around else "perspective" if path.perspective else "orthographic"
-    return Track(
+    perspective = path.perspective or path.meet > 0.0
+    planes = np.tile(clip(path, shot.ground), (len(frames), 1)) if path.clips is None else path.clips[at]
+    return CameraTrack(
         name=path.camera.name,
         frames=frames,
-        times=tuple(shot.utc(int(frame)) for frame in frames),
-        position=position,
+        position=path.position[at],
         rotation=path.rotation[at],
-        geodetic=request.georeference.geodetic(position),
-        half=path.halves[at],
+        half=path.halves[at] / (path.meet or 1.0),
         sensor=path.sensor,
-        projection=kind,
+        projection="panorama" if path.around else "perspective" if perspective else "orthographic",
+        clip=planes,
     )

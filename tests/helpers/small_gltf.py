@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from firetwin.export import gltf, tracks
 from firetwin.export.request import ExportRequest
-from firetwin.export.scene_content import CameraMove, Plants, Prototype, SceneContent
+from firetwin.export.scene_content import Plants, Prototype, SceneContent
 from firetwin.shot.shot import Shot
 from firetwin.shot.source import ShotSource
 from small_run import RUN_TOML, small_fields, write_field
@@ -62,14 +63,10 @@ def make_content(shot: Shot, request: ExportRequest) -> SceneContent:
         scorch=nothing,
         torched=nothing,
     )
-    moves = [
-        CameraMove(HOSTILE, each.frames, each.position, each.rotation, each.focal, (36.0, 20.25), (0.0,) * 2,
-                   np.tile([0.5, 1e5], (len(each.frames), 1)), each.projection)
-        for each in tracks.find(request)
-    ]  # fmt: skip
+    cameras = [replace(each, name=HOSTILE) for each in tracks.find(request)]
     numbers = np.array(request.frames)
     times = np.array([shot.frames.time(frame) for frame in request.frames])
-    return SceneContent(numbers, times, 24.0, None, models, [trees], None, moves, [])
+    return SceneContent(numbers, times, 24.0, None, models, [trees], None, cameras, [])
 
 
 def write(folder: Path) -> tuple[Shot, SceneContent, ExportRequest, Path, Path]:

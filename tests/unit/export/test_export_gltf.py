@@ -245,10 +245,9 @@ def test_a_still_or_flat_camera_has_no_animation_and_its_own_lens(small):
     _, whole, request, *_ = small
     (move,) = whole.cameras
     still = replace(move, position=move.position[[0] * 4], rotation=move.rotation[[0] * 4])
-    flat = replace(
-        still, name="flat", projection="orthographic", swath=(400.0, 300.0), focal_length=np.zeros(4)
-    )
-    zoomed = replace(still, name="zoom", focal_length=np.array([20.0, 30.0, 40.0, 50.0]))
+    flat = replace(still, name="flat", projection="orthographic", half=np.full((4, 2), (200.0, 150.0)))
+    focal = np.array([20.0, 30.0, 40.0, 50.0])
+    zoomed = replace(still, name="zoom", half=np.array([18.0, 10.125]) / focal[:, None])
     found = Glb(gltf.encode(replace(whole, cameras=[flat, zoomed], plants=[]), request, []))
     assert "animations" not in found.json
     one, two = found.json["cameras"]
