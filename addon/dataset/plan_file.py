@@ -18,15 +18,9 @@ from ..shot.schema.toml_positions import Where
 from ..shot.settings.scene_file import TableReader, loads
 from . import distributions, members
 from .distributions import DEFAULTS, KINDS, VALUES, Constant, Distribution
-from .plan import ANY, SPLITS, Plan, PlanRun
-from .splits import GROUPS
+from .plan import ANY, SPLITS, CameraShares, NegativeShares, Plan, PlanKeys, PlanRun, SplitShares
 
-_MOST = 1_000_000
 _EXAMPLE = "examples/dataset.toml shows every key"
-
-
-def _share(default: float, help: str) -> Any:
-    return key(default, help, at_least=0, at_most=1_000_000)
 
 
 @dataclass(frozen=True)
@@ -43,57 +37,13 @@ class _Run:
 
 
 @dataclass(frozen=True)
-class _Cameras:
-    """Relative shares of the kinds of camera."""
-
-    tower: float = _share(0.4, "fixed on high ground")
-    drone: float = _share(0.4, "near the front")
-    aircraft: float = _share(0.15, "a few kilometres away")
-    nadir: float = _share(0.05, "straight down")
-
-
-@dataclass(frozen=True)
-class _Negatives:
-    """Relative shares of the kinds of sample without fire."""
-
-    before_ignition: float = _share(1.0, "the same scenes before the fire")
-    cloud: float = _share(1.0, "a cloudy sky")
-    fog: float = _share(1.0, "fog")
-    dust: float = _share(1.0, "dust")
-    low_sun: float = _share(1.0, "a camera towards the low sun")
-    night_lights: float = _share(1.0, "lamps at night")
-    burned_out: float = _share(1.0, "burned ground after the fire")
-
-
-@dataclass(frozen=True)
-class _Splits:
-    """Relative shares of the splits."""
-
-    train: float = _share(0.7, "for training")
-    val: float = _share(0.1, "for the choice of a model")
-    test: float = _share(0.2, "for its score")
-
-
-@dataclass(frozen=True)
-class _File:
+class _File(PlanKeys):
     """Content of a plan, except the distributions."""
 
-    title: str = key("Firetwin samples", "name of the data set")
-    license: str = key("", "SPDX identifier of the licence of the data set")
-    count: int = key(100, "number of samples", at_least=1, at_most=_MOST)
-    seed: int = key(0, "seed of all draws", at_least=0, at_most=2**63 - 1)
-    resolution: tuple[int, int] = key(
-        (640, 480), "size of the pictures", unit="pixels", at_least=64, at_most=8192
-    )
-    moments: int = key(8, "model times per run, whose smoke several samples share", at_least=1, at_most=1000)
-    sites: int = key(6, "towers per run", at_least=1, at_most=1000)
-    positives: float = key(0.6, "share of samples with fire", at_least=0, at_most=1)
-    night: float = key(0.25, "share of samples at night", at_least=0, at_most=1)
-    split_by: str = key("auto", "group that is never in two splits", choices=("auto", *GROUPS))
     runs: tuple[_Run, ...] = key((), "runs that the samples show")
-    cameras: _Cameras = key(default_factory=_Cameras, help="kinds of camera")
-    negatives: _Negatives = key(default_factory=_Negatives, help="kinds of sample without fire")
-    splits: _Splits = key(default_factory=_Splits, help="splits")
+    cameras: CameraShares = key(default_factory=CameraShares, help="kinds of camera")
+    negatives: NegativeShares = key(default_factory=NegativeShares, help="kinds of sample without fire")
+    splits: SplitShares = key(default_factory=SplitShares, help="splits")
 
 
 def read(path: str | Path) -> Plan:
@@ -135,22 +85,8 @@ def parse(text: str, path: Path) -> Plan:
         negatives=dataclasses.asdict(found.negatives),
         splits=dataclasses.asdict(found.splits),
         draws={**DEFAULTS, **draws},
-        **{name: getattr(found, name) for name in _PLAIN},
+        **{each.name: getattr(found, each.name) for each in dataclasses.fields(PlanKeys)},
     )
-
-
-_PLAIN = (
-    "title",
-    "license",
-    "count",
-    "seed",
-    "resolution",
-    "moments",
-    "sites",
-    "positives",
-    "night",
-    "split_by",
-)
 
 
 def _runs(found: _Run) -> Iterator[PlanRun]:

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .hashing import share
-from .plan import ANY, CAMERAS, SPLITS, Plan, PlanRun
-
-GROUPS = "place", "run", "camera"
+from .plan import ANY, CAMERAS, GROUPS, SPLITS, Plan, PlanRun
 
 
 class Splits:
@@ -16,7 +14,7 @@ class Splits:
     Attributes
     ----------
     by
-        Kind of the groups, one of `GROUPS`.
+        Kind of the groups, one of `plan.GROUPS`.
     of_group
         Split of each group: of a place, of a run, or of "run/camera site".
     """
