@@ -1,4 +1,4 @@
-"""Atomic writes of several files: they get their names after all of them are on the disk."""
+"""Atomic writes of several files and of folders: they get their names after all content is complete."""
 
 from __future__ import annotations
 
@@ -25,10 +25,9 @@ def staging(out: Path) -> Iterator[Path]:
         The disk is full, or the folder cannot be written.
     """
     out = out.absolute()
-    part = out.with_name(f".{out.name}.{uuid.uuid4().hex[:12]}.part")
+    part = _part(out)
     try:
-        with writing(out):
-            part.mkdir(parents=True)
+        with _temporary(part, out):
             yield part
             _sync(part)
             out.mkdir(exist_ok=True)
@@ -39,6 +38,34 @@ def staging(out: Path) -> Iterator[Path]:
         if not path.is_relative_to(part):
             raise
         raise input_error(out / path.relative_to(part), error.reason, kind=type(error)) from error
+
+
+@contextmanager
+def new_folder(path: Path) -> Iterator[Path]:
+    """Make a temporary folder next to `path`; without an error it gets this name, which must be free.
+
+    Raises
+    ------
+    InputError
+        The disk is full, the folder cannot be written, or the name is not free.
+    """
+    part = _part(path)
+    with _temporary(part, path):
+        yield part
+        part.rename(path)
+
+
+def _part(path: Path) -> Path:
+    return path.with_name(f".{path.name}.{uuid.uuid4().hex[:12]}.part")
+
+
+@contextmanager
+def _temporary(part: Path, path: Path) -> Iterator[None]:
+    """Make a folder and remove it at the end; errors name `path`."""
+    try:
+        with writing(path):
+            part.mkdir(parents=True)
+            yield
     finally:
         shutil.rmtree(part, ignore_errors=True)
 

@@ -7,13 +7,12 @@ import hashlib
 import json
 import os
 import re
-import shutil
-import uuid
 from pathlib import Path
 
 from .. import files
 from ..errors import UsageError, input_error, writing
 from ..progress import Progress, silent
+from ..staging import new_folder
 from .names import File, Selection
 
 MANIFEST, SUMS, LATEST = "manifest.json", "SHA256SUMS", "latest"
@@ -45,19 +44,13 @@ def write(out: Path, chosen: Selection, number: int | None = None, progress: Pro
         raise UsageError(
             f"--version: {path} exists, and a delivered version is never overwritten; omit --version"
         )
-    part = out / f".{path.name}.{uuid.uuid4().hex[:12]}.part"
-    try:
-        with writing(path):
-            part.mkdir(parents=True)
-            delivered = {}
-            for done, each in enumerate(chosen.files):
-                progress(done, len(chosen.files), "copying")
-                delivered[_copy(each, part, path.name)] = each
-            progress(len(chosen.files), len(chosen.files), "copying")
-            _list(part, number, delivered)
-            part.rename(path)  # fails if another delivery has made the version
-    finally:
-        shutil.rmtree(part, ignore_errors=True)
+    with new_folder(path) as part:
+        delivered = {}
+        for done, each in enumerate(chosen.files):
+            progress(done, len(chosen.files), "copying")
+            delivered[_copy(each, part, path.name)] = each
+        progress(len(chosen.files), len(chosen.files), "copying")
+        _list(part, number, delivered)
     with writing(out / LATEST):
         _point(out, _folder(max(_numbers(out))))
     return path

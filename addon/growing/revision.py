@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import shutil
-import uuid
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -18,9 +17,10 @@ from firetwin_core import run
 from numpy.typing import NDArray
 
 from .. import files
-from ..errors import InputError, input_error, reading, writing
+from ..errors import InputError, input_error, reading
 from ..run.models import netcdf, write
 from ..run.models.model import Model
+from ..staging import new_folder
 from . import watched
 from .watched import Accepted
 
@@ -87,21 +87,14 @@ def publish(
         The disk is full, or the fields make no run.
     """
     target = watched.revision_folder(folder, new[-1].generation, new[-1].revision)
-    part = target.with_name(f".{target.name}.{uuid.uuid4().hex[:12]}.part")
     last = watched.revision_folder(folder, before[-1].generation, before[-1].revision) if before else None
-    try:
-        with writing(folder):
-            part.mkdir(parents=True)
-            _times(part, last, len(before), values, model.files[0])
-            _constants(part, last, model, new[-1].moment)
-            seconds = np.array([each.seconds for each in (*before, *new)])
-            text = write.description(replace(model, times=seconds), inputs)
-            files.write_text(part / "run.toml", text)
-            _check(part, model)
-            shutil.rmtree(target, ignore_errors=True)  # left by a watch that was killed
-            part.rename(target)
-    finally:
-        shutil.rmtree(part, ignore_errors=True)
+    with new_folder(target) as part:
+        _times(part, last, len(before), values, model.files[0])
+        _constants(part, last, model, new[-1].moment)
+        seconds = np.array([each.seconds for each in (*before, *new)])
+        files.write_text(part / "run.toml", write.description(replace(model, times=seconds), inputs))
+        _check(part, model)
+        shutil.rmtree(target, ignore_errors=True)  # left by a watch that was killed
     return target
 
 

@@ -15,6 +15,7 @@ import pytest
 import whole_run
 from fires import LATITUDE, LONGITUDE, axes, circle, degrees, geojson, round_fire, square
 from firetwin.errors import UsageError
+from firetwin.html_text import quote
 from firetwin.run import observations, readers
 from firetwin.run import score as scores
 from firetwin.run.observations import Perimeter
@@ -329,7 +330,7 @@ def test_without_shapely_the_command_says_what_to_install(monkeypatch):
 
 
 def test_names_in_the_report_do_not_turn_its_text():
-    assert report.escape("a\u202egpj.<b>") == "a\\u202egpj.&lt;b&gt;"
+    assert quote("a\u202egpj.<b>") == "a\\u202egpj.&lt;b&gt;"
 
 
 class _Page(HTMLParser):
