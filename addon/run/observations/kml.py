@@ -6,10 +6,11 @@ import zipfile
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
 
 from ... import files, limits
 from ...errors import input_error
+from . import xml_tree
 from .feature import Feature, Polygon, Ring, degrees, ring
 
 SUFFIXES = (".kml", ".kmz")
@@ -25,18 +26,7 @@ def read(path: Path) -> list[Feature]:
         The file is not KML.
     """
     text = unpack_kmz(path) if path.suffix.lower() == ".kmz" else path.read_bytes()
-    if b"<!ENTITY" in text:
-        raise input_error(path, "defines entities, which no KML needs")
-    try:
-        root = ElementTree.fromstring(text)
-    except ElementTree.ParseError as error:
-        line, column = error.position
-        raise input_error(
-            path, f"not valid XML: {str(error).partition(':')[0]}", line=line, column=column + 1
-        ) from None
-    except (ValueError, LookupError) as error:
-        raise input_error(path, f"not valid XML: {error}") from None
-    return list(_placemarks(path, root, {}))
+    return list(_placemarks(path, xml_tree.parse(text, path), {}))
 
 
 def unpack_kmz(path: Path) -> bytes:
@@ -61,7 +51,7 @@ def unpack_kmz(path: Path) -> bytes:
         raise input_error(path, f"not a KMZ file: {str(error)[:1].lower()}{str(error)[1:]}") from None
 
 
-def _placemarks(path: Path, folder: ElementTree.Element, inherited: dict[str, str]) -> Iterator[Feature]:
+def _placemarks(path: Path, folder: Element, inherited: dict[str, str]) -> Iterator[Feature]:
     """Yield placemarks of a folder and its subfolders; a folder's time applies to those without one."""
     known = inherited | _time(folder)
     if _tag(folder) == "Folder" and (called := _name(folder)):
@@ -76,11 +66,11 @@ def _placemarks(path: Path, folder: ElementTree.Element, inherited: dict[str, st
             yield from _placemarks(path, child, known)
 
 
-def _name(element: ElementTree.Element) -> str:
+def _name(element: Element) -> str:
     return next((child.text.strip() for child in element if _tag(child) == "name" and child.text), "")
 
 
-def _points(path: Path, place: str, placemark: ElementTree.Element) -> Ring:
+def _points(path: Path, place: str, placemark: Element) -> Ring:
     texts = (
         each.text or ""
         for point in placemark.iter()
@@ -91,7 +81,7 @@ def _points(path: Path, place: str, placemark: ElementTree.Element) -> Ring:
     return degrees(path, place, [text.strip().split(",") for text in texts])
 
 
-def _time(element: ElementTree.Element) -> dict[str, str]:
+def _time(element: Element) -> dict[str, str]:
     """Return `when` of a TimeStamp, or the end of a TimeSpan, when all has burned, otherwise its begin.
 
     The begin is also `begin`.
@@ -105,7 +95,7 @@ def _time(element: ElementTree.Element) -> dict[str, str]:
     return {}
 
 
-def _data(placemark: ElementTree.Element) -> dict[str, str]:
+def _data(placemark: Element) -> dict[str, str]:
     properties = {}
     for element in placemark.iter():
         if _tag(element) == "SimpleData":
@@ -117,7 +107,7 @@ def _data(placemark: ElementTree.Element) -> dict[str, str]:
     return properties
 
 
-def _polygons(path: Path, place: str, placemark: ElementTree.Element) -> Iterator[Polygon]:
+def _polygons(path: Path, place: str, placemark: Element) -> Iterator[Polygon]:
     for polygon in placemark.iter():
         if _tag(polygon) == "Polygon":
             rings = [_ring(path, place, text) for text in _rings(polygon, "outerBoundaryIs")]
@@ -126,7 +116,7 @@ def _polygons(path: Path, place: str, placemark: ElementTree.Element) -> Iterato
             yield (*rings, *(_ring(path, place, text) for text in _rings(polygon, "innerBoundaryIs")))
 
 
-def _rings(polygon: ElementTree.Element, which: str) -> Iterator[str]:
+def _rings(polygon: Element, which: str) -> Iterator[str]:
     for boundary in polygon:
         if _tag(boundary) == which:
             yield from (each.text or "" for each in boundary.iter() if _tag(each) == "coordinates")
@@ -136,5 +126,5 @@ def _ring(path: Path, place: str, text: str) -> Ring:
     return ring(path, place, (point.split(",") for point in text.split()))
 
 
-def _tag(element: ElementTree.Element) -> str:
+def _tag(element: Element) -> str:
     return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""

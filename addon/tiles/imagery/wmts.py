@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 import re
 from urllib.parse import parse_qsl, quote, urlencode, urljoin
-from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from ...errors import input_error
+from ...run.observations import xml_tree
 from ...run.observations.feature import finite
 from .address import WORLD, TileAddress
 from .mercator import DEEPEST, DENOMINATOR, HALF
@@ -40,7 +40,8 @@ def address_of(data: bytes, name: str, url: str, layer: str = "") -> TileAddress
     InputError
         The capabilities are invalid, the layer is missing, or has no matrix set WebMercatorQuad.
     """
-    root = _parse(data, name)
+    remedy = "; for other tiles write {z}, {x} and {y}"
+    root = xml_tree.parse(data, name, "is not WMTS capabilities", remedy)
     contents = root.find("./{*}Contents")
     if contents is None:
         raise input_error(name, "is not a WMTS: Contents is missing; name the URL of its capabilities")
@@ -51,22 +52,6 @@ def address_of(data: bytes, name: str, url: str, layer: str = "") -> TileAddress
     template = _template(chosen, name, matrices, urljoin(url, _operation(root)), url)
     names = {level: quote(each, safe="") for level, each in levels.items()}
     return TileAddress(template, min(levels), max(levels), names, _box(chosen))
-
-
-class _NoDoctype(ElementTree.TreeBuilder):
-    """Tree builder that refuses a document type, as its entities can grow without bound."""
-
-    def doctype(self, *_: object) -> None:
-        raise ValueError("it has a document type")
-
-
-def _parse(data: bytes, name: str) -> Element:
-    try:
-        return ElementTree.fromstring(data, ElementTree.XMLParser(target=_NoDoctype()))
-    except (ElementTree.ParseError, ValueError, LookupError) as error:
-        line, column = getattr(error, "position", (0, 0))
-        reason = f"is not WMTS capabilities: {error}; for other tiles write {{z}}, {{x}} and {{y}}"
-        raise input_error(name, reason, line=line, column=column) from None
 
 
 def _text(element: Element | None, path: str) -> str:

@@ -176,7 +176,8 @@ BAD = {
         f"<kml>{'<Folder>' * 3000}{'</Folder>' * 3000}</kml>",
         "nested too deeply",
     ),
-    "bomb.kml": ('<!DOCTYPE a [<!ENTITY b "c">]><kml/>', "entities"),
+    "bomb.kml": ('<!DOCTYPE a [<!ENTITY b "c">]><kml/>', "document type"),
+    "wide.kml": ('<!DOCTYPE a [<!ENTITY b "c">]><kml/>', "document type"),
     "a.kmz": ("not a zip", "not a KMZ"),
     "a.gpkg": ("not a base at all, but long enough for a check by SQLite" * 9, "not a GeoPackage"),
     "a.csv": ("lat,lon\n1,2\n", "missing columns latitude"),
@@ -190,7 +191,8 @@ BAD = {
 def test_bad_files_say_what_and_where_in_one_line(tmp_path, name):
     text, words = BAD[name]
     if text is not None:
-        (tmp_path / name).write_text(text)
+        encoding = "utf-16" if name.startswith("wide") else "utf-8"
+        (tmp_path / name).write_text(text, encoding=encoding)
     with pytest.raises(InputError, match=words) as error:
         observations.read([tmp_path / name])
     assert str(error.value).startswith(str(tmp_path / name))
