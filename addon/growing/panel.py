@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import threading
 from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
 
 from ..progress import count
-from ..ui import working
+from ..ui.folder_watch import FolderWatch
 from ..ui.text import draw_paragraph
 from . import watched
 
 _PERIOD = 5.0  # s between readings
-_SHORT = 0.5  # s between checks of the thread
 
 
 @dataclass(frozen=True)
@@ -38,8 +36,6 @@ class Growth:
 
 _read: dict[Path, Growth] = {}
 _latest: dict[Path, Growth] = {}
-_thread: threading.Thread | None = None
-_folder: Path | None = None
 
 
 def start(folder: Path, read: Growth) -> None:
@@ -50,21 +46,16 @@ def start(folder: Path, read: Growth) -> None:
     read
         State from before the run was read (`look`), as times come meanwhile.
     """
-    global _folder
-    _folder = folder if watched.is_watched(folder) else None
-    if _folder is None:
+    if not watched.is_watched(folder):
+        _watch.stop()
         return
     _read[folder] = _latest[folder] = read
-    if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
-        bpy.app.timers.register(_tick, first_interval=_PERIOD, persistent=True)
+    _watch.start(folder)
 
 
 def unregister() -> None:
     """Stop looking, and forget all states."""
-    global _folder
-    _folder = None
-    if bpy.app.timers.is_registered(_tick):
-        bpy.app.timers.unregister(_tick)
+    _watch.stop()
     _read.clear()
     _latest.clear()
 
@@ -92,24 +83,13 @@ def look(folder: Path) -> Growth:
     return Growth(state, (last.generation, last.revision), f"{last.moment:%Y-%m-%d %H:%M} UTC")
 
 
-def _tick() -> float | None:
-    global _thread
-    if _folder is None:
-        return None
-    if _thread is None:
-        _thread = threading.Thread(target=_look_in_thread, args=(_folder,), name="Firetwin run", daemon=True)
-        _thread.start()
-        return _SHORT
-    if _thread.is_alive():
-        return _SHORT
-    _thread = None
-    working.redraw()
-    found = _latest.get(_folder)
-    return _PERIOD if found is not None and found.state not in watched.FINAL else None
-
-
-def _look_in_thread(folder: Path) -> None:
+def _try_to_look(folder: Path) -> None:
     try:
         _latest[folder] = look(folder)
     except Exception:  # such as a folder that was removed; the state stays
         return
+
+
+_watch = FolderWatch(
+    _try_to_look, lambda folder: _latest[folder].state in watched.FINAL, _PERIOD, persistent=True
+)

@@ -148,7 +148,7 @@ def _submit(command: list[str], out: Path, last: str) -> Steps:
     """Run a scheduler's command, then read the status of the job."""
     yield InThread("submitting", functools.partial(submission.run_command, command, out))
     yield InThread("reading the status", lambda **_: watch.read_status(out))
-    watch.start_watch(out)
+    watch.status_watch.start(out)
     return last
 
 
@@ -233,7 +233,7 @@ class FIRETWIN_OT_farm_status(_JobOperator, bpy.types.Operator):
         _check_job(out)
         found = yield InThread("reading the status", lambda **_: watch.read_status(out))
         if watch.is_unfinished(found):
-            watch.start_watch(out)
+            watch.status_watch.start(out)
         return "; ".join(text for _, text in status.rows(found))
 
 

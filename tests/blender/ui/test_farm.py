@@ -13,7 +13,7 @@ from firetwin.farm import panel as farm
 from firetwin.farm import plan, submission
 from firetwin.farm.panel import watch as farm_watch
 from firetwin.jobs.worker import StoppedError
-from firetwin.ui import job, working
+from firetwin.ui import folder_watch, job, working
 
 
 @pytest.fixture(scope="module")
@@ -199,12 +199,12 @@ def test_the_panel_reads_no_file(panel, monkeypatch):
 def test_the_watch_follows_a_job_until_it_is_done(panel, monkeypatch):
     bpy.ops.firetwin.farm_write()
     out = farm._output_folder(panel)
-    monkeypatch.setattr(farm_watch, "_out", out)
+    monkeypatch.setattr(farm_watch.status_watch, "folder", out)
 
     def looked():
-        assert farm_watch._tick() == farm_watch._SHORT
-        farm_watch._thread.join()
-        return farm_watch._tick()
+        assert farm_watch.status_watch.tick() == folder_watch.SHORT
+        farm_watch.status_watch.thread.join()
+        return farm_watch.status_watch.tick()
 
     assert looked() == farm_watch._PERIOD
     assert farm_watch.last_status(out).waiting

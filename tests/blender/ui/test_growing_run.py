@@ -7,7 +7,7 @@ import growing_model
 import pytest
 from firetwin.growing import panel as growing_run
 from firetwin.growing import watch
-from firetwin.ui import run
+from firetwin.ui import folder_watch, run
 
 pytest.importorskip("netCDF4")
 
@@ -52,9 +52,9 @@ def lines(folder):
 
 
 def looked():
-    assert growing_run._tick() == growing_run._SHORT
-    growing_run._thread.join()
-    return growing_run._tick()
+    assert growing_run._watch.tick() == folder_watch.SHORT
+    growing_run._watch.thread.join()
+    return growing_run._watch.tick()
 
 
 def test_new_times_are_offered_until_they_are_read(panel, model):
@@ -93,4 +93,4 @@ def test_other_runs_have_no_line(panel, run_folder):
     panel.run = str(run_folder)
     assert panel.facts
     assert lines(run_folder) == []
-    assert growing_run._tick() is None
+    assert growing_run._watch.tick() is None
