@@ -261,8 +261,7 @@ def _points(
     units: Units,
 ) -> list[Point]:
     """List stations, then named places within the grid, with the arrival of the fire at each."""
-    file = settings.labels.file if settings else None
-    towns = labels.read(file) if file else labels.known(run)
+    towns = labels.find(run, settings.labels.file if settings else None)
     by_name = sorted(station_file.stations, key=lambda each: (each.title, each.id)) if station_file else ()
     spots: list[Station | Label] = [*by_name, *towns]
     found = reached.find(run, [s.latitude for s in spots], [s.longitude for s in spots], clock, error, units)

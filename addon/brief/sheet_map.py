@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ellipsoid import metres_per_degree
+from ..geometry.rectangles import overlap
 from ..html_text import quote
 from ..imaging import map_symbols
 from ..run import times
@@ -58,7 +59,7 @@ class Content:
         at = _thinned(np.column_stack([x, y]))
         low, high = at.min(axis=0), at.max(axis=0)
         frame = self.frame
-        if len(at) < 2 or not _overlap(
+        if len(at) < 2 or not overlap(
             (*low, *high), (frame.left, frame.top, frame.left + frame.width, frame.top + frame.height)
         ):
             return
@@ -126,7 +127,7 @@ class Content:
         ):
             box = (left, top, left + wide, top + high)
             inside = self.frame.contains(left, top, 0.5) and self.frame.contains(left + wide, top + high, 0.5)
-            if inside and not any(_overlap(box, other) for other in self.taken):
+            if inside and not any(overlap(box, other) for other in self.taken):
                 self.taken.append(box)
                 at = left + {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * wide
                 self.labels += _texts(lines, at, top, size, anchor)
@@ -267,10 +268,6 @@ def _thinned(points: Array) -> Array:
             kept.append(index)
             last = points[index]
     return points[kept]
-
-
-def _overlap(a: Sequence[float], b: Sequence[float]) -> bool:
-    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
 
 
 def _texts(lines: Sequence[str], x: float, top: float, size: float, anchor: str) -> Iterator[str]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .. import files as atomic
 from ..errors import UsageError, input_error
 from ..geometry.grids import dilate
+from ..geometry.rectangles import common_area
 from ..shot.schema.frame_list import FrameList
 from . import files, truth
 from .files import Masks
@@ -187,16 +188,10 @@ def _draw_caption(pen: ImageDraw, each: Annotation, taken: list[Box], height: in
         for x in (x0, x1 - long)
     ]
     boxes = [(x, y, x + long, y + line - 1) for x, y in places]
-    found = min(boxes, key=lambda box: sum(_overlap(box, other) for other in taken if other != each.box))
+    found = min(boxes, key=lambda box: sum(common_area(box, other) for other in taken if other != each.box))
     pen.rectangle(found, fill=(0, 0, 0))
     pen.text((found[0] + 2, found[1]), words, fill=_COLOURS[each.category], font=font)
     return found
-
-
-def _overlap(one: Box, other: Box) -> float:
-    """Compute the common area of two boxes."""
-    wide, high = (min(one[k + 2], other[k + 2]) - max(one[k], other[k]) for k in (0, 1))
-    return max(wide, 0.0) * max(high, 0.0)
 
 
 def _rectangle(pen: ImageDraw, box: Box, colour: tuple[int, int, int]) -> None:

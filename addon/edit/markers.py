@@ -30,9 +30,7 @@ def _events(shot: Shot) -> Iterator[tuple[str, Event]]:
     run, settings = shot.run, shot.settings
     yield from ((IGNITION, each) for each in events.ignitions(run))
     yield from ((FLARE_UP, each) for each in events.flare_ups(run))
-    places: list[Place] = [
-        *(labels.read(settings.labels.file) if settings.labels.file else labels.known(run))
-    ]
+    places: list[Place] = [*labels.find(run, settings.labels.file)]
     if settings.stations.enabled and settings.stations.file is not None:
         places += reading.read(settings.stations.file).stations
     yield from ((ARRIVAL, each) for each in events.arrivals_at(run, places))

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.rectangles import overlap
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -151,14 +153,10 @@ def _free(
         for x0 in (x - 0.3 * size, x + 0.3 * size - long):
             box = x0, y - 0.7 * size, x0 + long, y + 0.7 * size
             inside = box[0] >= left and box[1] >= top and box[2] <= right and box[3] <= bottom
-            if inside and not any(_overlap(box, other) for other in taken):
+            if inside and not any(overlap(box, other) for other in taken):
                 taken.append(box)
                 yield mark._replace(x=x, y=y), x0 < x - 0.5 * size
                 break
-
-
-def _overlap(one: Box, other: Box) -> bool:
-    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 
 def _mark(figure: Figure, mark: Mark, size: float, at_left: bool) -> None:

@@ -44,6 +44,11 @@ def known(run: Run) -> list[Label]:
     ]
 
 
+def find(run: Run, path: Path | None) -> list[Label]:
+    """Read the labels of a user's list, or return the built-in ones of a run's fire without a list."""
+    return read(path) if path else known(run)
+
+
 def read(path: Path) -> list[Label]:
     """Read labels from a GeoJSON file's points, or a CSV file with columns name, latitude and longitude.
 

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from datetime import datetime
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..run import burning, info, times
+from ..run.labels import Label
 from . import fire_arrival, ignition
 from .fire_arrival import Arrivals
+from .records import Station
 
 FLARE_UP = 2.0
 """A flare-up exceeds this multiple of the mean heat release rate (by eye)."""
@@ -26,20 +28,7 @@ class Event(NamedTuple):
     place: str = ""
 
 
-class Place(Protocol):
-    """A place with a name: a station or a label; degrees north and east."""
-
-    @property
-    def name(self) -> str:
-        """Name."""
-
-    @property
-    def latitude(self) -> float:
-        """Latitude, degrees."""
-
-    @property
-    def longitude(self) -> float:
-        """Longitude, degrees."""
+Place = Label | Station
 
 
 def reports(found: dict[str, Any], unit: str) -> list[tuple[str, str]]:

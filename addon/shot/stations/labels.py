@@ -64,7 +64,7 @@ def _first(shot: Shot) -> Shot:
 
 def _find(shot: Shot) -> Labels:
     settings, ground = shot.settings.labels, shot.ground
-    places = labels.read(settings.file) if settings.file else labels.known(_first(shot).run)
+    places = labels.find(_first(shot).run, settings.file)
     inside = _within(places, ground.fields.latitude, ground.fields.longitude)
     if not inside:
         return _NONE

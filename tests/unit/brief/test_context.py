@@ -10,6 +10,7 @@ from firetwin.brief import context, line_labels, sheet_map
 from firetwin.brief.map_frame import MapFrame
 from firetwin.brief.mercator import Box
 from firetwin.errors import InputError, UsageError
+from firetwin.geometry.rectangles import overlap
 from firetwin.imaging import map_symbols
 
 FRAME = MapFrame.fitted(Box(38.7, -120.7, 39.1, -120.2), (0.0, 0.0, 200.0, 150.0))
@@ -83,7 +84,7 @@ def test_labels_do_not_overlap():
     assert 5 < len(made.labels) < 40
     boxes = made.taken
     labels = [box for box in boxes if box[2] - box[0] > 5.0]
-    assert not any(sheet_map._overlap(a, b) for i, a in enumerate(labels) for b in labels[:i])
+    assert not any(overlap(a, b) for i, a in enumerate(labels) for b in labels[:i])
 
 
 def test_a_line_has_its_label_once_where_there_is_space(tmp_path):

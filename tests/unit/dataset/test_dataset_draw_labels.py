@@ -9,6 +9,7 @@ from firetwin import cli
 from firetwin.dataset import draw_labels, files, labels, sensor, truth
 from firetwin.dataset.files import Masks
 from firetwin.dataset.truth import Annotation
+from firetwin.geometry.rectangles import common_area
 from PIL import Image, ImageDraw
 
 FIRE, SMOKE = (draw_labels._COLOURS[each] for each in (truth.FIRE, truth.SMOKE))
@@ -75,7 +76,7 @@ def test_captions_of_close_boxes_do_not_cover_each_other():
         captions.append(draw_labels._draw_caption(pen, each, taken + captions, 120, 160))
     for k, each in enumerate(captions):
         for other in captions[:k] + [box for box in taken if box != near[k].box]:
-            assert draw_labels._overlap(each, other) == 0.0
+            assert common_area(each, other) == 0.0
 
 
 @pytest.mark.parametrize(

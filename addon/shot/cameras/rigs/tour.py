@@ -156,7 +156,7 @@ class Tour(Lens):
         """Named places by their names in small letters; none if no stop asks for one."""
         if all(stop.place.casefold() in ("", *_FIRE) for stop in self.stops):
             return {}
-        places = labels.read(self.places) if self.places else labels.known(run)
+        places = labels.find(run, self.places)
         return {label.name.casefold(): label for label in places}
 
     def _tracks(self, filming: Filming, ground: Terrain) -> Array:
