@@ -22,33 +22,29 @@ def _share(default: float, help: str) -> Any:
 
 
 @dataclass(frozen=True)
-class PlanRun:
+class RunKeys:
+    """Names and weight of one run."""
+
+    place: str = key("", "name of the place; runs of one place are in one split")
+    name: str = key("", "unique name of the run (name of its folder or scene file)")
+    weight: float = key(1.0, "share of the samples, relative to other runs", above=0, at_most=_MOST)
+    split: str = key(ANY, "split of the run's group", choices=(ANY, *SPLITS))
+    imagery_license: str = key("", "SPDX identifier of the licence of photographs of the ground")
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanRun(RunKeys):
     """One run of a plan.
 
     Attributes
     ----------
-    place
-        Name of the place. Runs of one place share its terrain, and are never in two splits by place.
     run
         Run folder, or a scene file, whose settings apply.
-    name
-        Unique name of the run (stem of its folder or scene file).
-    weight
-        Share of the samples, relative to the other runs.
-    split
-        Split of the run, or "any": the plan chooses.
-    imagery_license
-        SPDX identifier of the licence of photographs of the ground in the scene file; "" without any.
     ensemble, member
         Ensemble and name of the member that the run is converted from; None and "" for other runs.
     """
 
-    place: str
     run: Path
-    name: str
-    weight: float = 1.0
-    split: str = ANY
-    imagery_license: str = ""
     ensemble: Path | None = None
     member: str = ""
 

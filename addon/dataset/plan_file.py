@@ -18,22 +18,17 @@ from ..shot.schema.toml_positions import Where
 from ..shot.settings.scene_file import TableReader, loads
 from . import distributions, members
 from .distributions import DEFAULTS, KINDS, VALUES, Constant, Distribution
-from .plan import ANY, SPLITS, CameraShares, NegativeShares, Plan, PlanKeys, PlanRun, SplitShares
+from .plan import CameraShares, NegativeShares, Plan, PlanKeys, PlanRun, RunKeys, SplitShares
 
 _EXAMPLE = "examples/dataset.toml shows every key"
 
 
 @dataclass(frozen=True)
-class _Run:
+class _Run(RunKeys):
     """A run of the data set."""
 
-    place: str = key("", "name of the place; runs of one place are in one split")
     run: Path | None = key(None, "run folder, or scene file, whose settings apply, or ensemble")
     members: tuple[str, ...] = key((), 'members of an ensemble, each of which is a run, or "all"')
-    name: str = key("", "unique name of the run (name of its folder or scene file)")
-    weight: float = key(1.0, "share of the samples, relative to other runs", above=0, at_most=1_000_000)
-    split: str = key(ANY, "split of the run's group", choices=(ANY, *SPLITS))
-    imagery_license: str = key("", "SPDX identifier of the licence of photographs of the ground")
 
 
 @dataclass(frozen=True)
@@ -92,7 +87,8 @@ def parse(text: str, path: Path) -> Plan:
 def _runs(found: _Run) -> Iterator[PlanRun]:
     """Yield the runs of an entry: one, or one for each member of an ensemble, which share its weight."""
     assert found.run is not None  # checked by `_faults`
-    plain = PlanRun(found.place, found.run, _name(found), found.weight, found.split, found.imagery_license)
+    keys = {each.name: getattr(found, each.name) for each in dataclasses.fields(RunKeys)}
+    plain = PlanRun(**keys | {"name": _name(found), "run": found.run})
     if not found.members:
         yield plain
         return

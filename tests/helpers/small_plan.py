@@ -19,5 +19,5 @@ def write_run(folder, **more):
 
 def plan(*names, folder=Path("runs"), **more):
     """Plan of runs in folders of these names, one place each."""
-    runs = tuple(PlanRun(f"Place {name}", folder / name, name) for name in names or ("a",))
+    runs = tuple(PlanRun(f"Place {name}", name, run=folder / name) for name in names or ("a",))
     return Plan(**({"path": folder / "plan.toml", "runs": runs, "seed": 7} | more))

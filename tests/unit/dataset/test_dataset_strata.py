@@ -26,7 +26,7 @@ def test_each_prefix_has_the_shares_of_the_plan(seed, positives, night, runs, ca
         seed=seed,
         positives=positives,
         night=night,
-        runs=tuple(PlanRun("P", small_plan.Path("r"), f"r{k}", weight) for k, weight in enumerate(runs)),
+        runs=tuple(PlanRun("P", f"r{k}", weight, run=small_plan.Path("r")) for k, weight in enumerate(runs)),
         cameras=dict(zip(CAMERAS, cameras, strict=True)),
     )
     known = Strata(plan)
