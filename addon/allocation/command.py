@@ -106,15 +106,15 @@ def _add(parser: argparse.ArgumentParser) -> None:
 
 def parse_response(text: str) -> dict[str, int]:
     """Parse numbers by type, such as "engine/3=4,dozer/2=1"."""
-    found: dict[str, int] = {}
+    numbers: dict[str, int] = {}
     for part in text.split(","):
         kind, _, number = (word.strip() for word in part.partition("="))
         if not kind or not number.isdecimal() or int(number) < 1:
             raise argparse.ArgumentTypeError(f"must have the form engine/3=4,dozer/2=1, not {text!r}")
-        if kind in found:
+        if kind in numbers:
             raise argparse.ArgumentTypeError(f"names {kind} twice")
-        found[kind] = int(number)
-    return found
+        numbers[kind] = int(number)
+    return numbers
 
 
 def _amount(text: str) -> float:
@@ -158,16 +158,16 @@ def _run(arguments: argparse.Namespace) -> None:
         None if arguments.contain_all else arguments.escape_loss,
     )
     line = LineOptions(0.5 * arguments.close_gaps, arguments.indirect)
-    found = job.suggest(units, run, request, start, arguments.hours, arguments.divisions, line=line)
-    drawn = found.pop("map")
+    suggestion = job.suggest(units, run, request, start, arguments.hours, arguments.divisions, line=line)
+    drawn = suggestion.pop("map")
     if arguments.ensemble is not None:
-        members.add(found, run, place_arrivals.open_forecast(arguments.ensemble, "the list"), drawn)
-    found["left_out"] += left_out
+        members.add(suggestion, run, place_arrivals.open_forecast(arguments.ensemble, "the list"), drawn)
+    suggestion["left_out"] += left_out
     if arguments.geojson is not None:
         files.write_text(arguments.geojson, json.dumps(drawn, separators=(",", ":")) + "\n")
-    result(json.dumps(found, indent=1) if arguments.json else page.format_text(found))
-    if found["reasons"]:
-        raise Error("; ".join(found["reasons"]))
+    result(json.dumps(suggestion, indent=1) if arguments.json else page.format_text(suggestion))
+    if suggestion["reasons"]:
+        raise Error("; ".join(suggestion["reasons"]))
 
 
 COMMAND = Command("allocate", "suggest an allocation of resources (exercise)", _DETAIL, SCENES, _run, _add)

@@ -19,7 +19,7 @@ _NOT_HELD = "Line Not Held"
 _DIGITS = 5  # of degrees, 1 m
 
 
-def make(asked: AllocationInput, answer: Answer | None, found: dict[str, Any]) -> dict[str, Any]:
+def make(asked: AllocationInput, answer: Answer | None, result: dict[str, Any]) -> dict[str, Any]:
     """Return a FeatureCollection; each feature has `kind`, `exercise` (the label) and `FeatureCategory`.
 
     The category chooses a symbol of the NWCG standard on the sheets of `firetwin brief --context`.
@@ -31,17 +31,17 @@ def make(asked: AllocationInput, answer: Answer | None, found: dict[str, Any]) -
     parts = asked.divisions
     features = _breaks(asked)
     where = {each.id: each for each in asked.resources}
-    for k, division in enumerate(found["divisions"]):
+    for k, division in enumerate(result["divisions"]):
         if not any(division["perimeter"]):
             continue
         hour, held = division["contained_at_hour"], division["contained_at_hour"] is not None
-        index = found["hours"].index(hour) if held else len(found["hours"]) - 1
+        index = result["hours"].index(hour) if held else len(result["hours"]) - 1
         plan = division.get("nearest_plan")
         built = division.get("line", 0.0) if plan is None else plan["line"]
         lines = divisions.split_line(parts.lines[index], parts.centre, len(parts.names))[k]
         about = {
             "division": division["name"],
-            "hour": found["hours"][index],
+            "hour": result["hours"][index],
             "held": held,
             "front_m": division["perimeter"][index],
             "line_m": None if answer is None else built,

@@ -14,28 +14,28 @@ from ..run.ensemble.ensemble import Ensemble
 from ..run.ensemble.place_arrivals import SHARES
 
 
-def add(found: dict[str, Any], run: Run, members: Ensemble, drawn: dict[str, Any]) -> None:
+def add(result: dict[str, Any], run: Run, members: Ensemble, drawn: dict[str, Any]) -> None:
     """Add to each division of a suggestion when members of a forecast first reach its control line.
 
     Parameters
     ----------
-    found
+    result
         See `suggestion.describe`.
     drawn
         Map layer of the suggestion, with control lines at the hour of containment, or else the last hour.
     """
     where, lines = zone.time_zone(run), _lines(drawn)
-    order = datetime.fromisoformat(found["from"]).astimezone(UTC)
-    divisions = [each for each in found["divisions"] if each["name"] in lines]
+    order = datetime.fromisoformat(result["from"]).astimezone(UTC)
+    divisions = [each for each in result["divisions"] if each["name"] in lines]
     arrivals = place_arrivals.earliest(members, [lines[each["name"]][0] for each in divisions])
     for k, division in enumerate(divisions):
-        hour, known = lines[division["name"]][1], arrivals.known(k)
+        hour, arrival_times = lines[division["name"]][1], arrivals.known(k)
         moment = order + timedelta(hours=hour)
-        before = int((known <= (moment - members.issued).total_seconds()).sum())
+        before = int((arrival_times <= (moment - members.issued).total_seconds()).sum())
         reached = [(share, arrivals.by(k, share)) for share in SHARES]
         division["forecast"] = {
             "text": arrivals.sentence(k, where),
-            "members": len(known),
+            "members": len(arrival_times),
             "hour": hour,
             "reached_by_hour": before,
             "reached_by": [
@@ -44,7 +44,7 @@ def add(found: dict[str, Any], run: Run, members: Ensemble, drawn: dict[str, Any
             ],
         }
     total = len(members.members) + len(members.left_out)
-    found["assumptions"] += [
+    result["assumptions"] += [
         f"forecast: {members.manifest.name}, {arrivals.count} of {total} members, issued "
         f"{times.text(members.issued, where)}; a line is reached when a member burns any point of it, and no "
         "work on it is counted",
@@ -54,11 +54,11 @@ def add(found: dict[str, Any], run: Run, members: Ensemble, drawn: dict[str, Any
 
 def _lines(drawn: dict[str, Any]) -> dict[str, tuple[np.ndarray, float]]:
     """Return the points (n, 2), degrees east and north, and the hour of each division's control line."""
-    found = {}
+    lines = {}
     for feature in drawn["features"]:
         about = feature["properties"]
         if about["kind"] == "control_line":
             parts = [np.asarray(part, np.float64) for part in feature["geometry"]["coordinates"]]
             points = np.concatenate(parts) if parts else np.empty((0, 2))
-            found[about["division"]] = points, float(about["hour"])
-    return found
+            lines[about["division"]] = points, float(about["hour"])
+    return lines

@@ -25,15 +25,15 @@ def pair_nearest(problem: Problem) -> list[Nearest]:
 
     With fewer resources of a kind than divisions, some divisions get none.
     """
-    found = []
+    pairs = []
     for kind in sorted({each.partition("/")[0] for each in problem.types}):
         members = np.flatnonzero(problem.of(kind))
         division, chosen = pair_times(problem.minutes[members].T)
-        found += [
+        pairs += [
             Nearest(kind, int(k), int(members[i]), float(problem.minutes[members[i], k]))
             for k, i in zip(division, chosen, strict=True)
         ]
-    return found
+    return pairs
 
 
 def pair_times(minutes: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -13,51 +13,51 @@ def format_text(found: dict[str, Any]) -> str:
     return "\n".join(_lines(found))
 
 
-def _lines(found: dict[str, Any]) -> Iterator[str]:
-    label, cost = f"*** {found['label']} ***", found["units"]["cost"]
+def _lines(result: dict[str, Any]) -> Iterator[str]:
+    label, cost = f"*** {result['label']} ***", result["units"]["cost"]
     money = f" {cost}" if cost else ""
     yield label
-    yield f"run {found['run']}, ordered {found['from']}, {found['hours'][-1]:g} h"
+    yield f"run {result['run']}, ordered {result['from']}, {result['hours'][-1]:g} h"
     for hour in (0, -1):
-        line, front = (sum(each[name][hour] for each in found["divisions"]) for name in _LENGTHS)
-        yield f"control line {line:,.0f} m at hour {found['hours'][hour]:g}; front in detail {front:,.0f} m"
-    for reason in found["reasons"]:
+        line, front = (sum(each[name][hour] for each in result["divisions"]) for name in _LENGTHS)
+        yield f"control line {line:,.0f} m at hour {result['hours'][hour]:g}; front in detail {front:,.0f} m"
+    for reason in result["reasons"]:
         yield f"no allocation: {reason}"
-    for division in found["divisions"]:
+    for division in result["divisions"]:
         yield ""
-        yield from _division(division, found, money)
-    if found["sums"]:
-        sums = found["sums"]
+        yield from _division(division, result, money)
+    if result["sums"]:
+        sums = result["sums"]
         yield ""
-        of = "" if found["budget"] is None else f" of a budget of {found['budget']:,.2f}"
+        of = "" if result["budget"] is None else f" of a budget of {result['budget']:,.2f}"
         yield f"cost {sums['cost']:,.2f}{of}{money}, loss {sums['loss']:,.2f}{money}"
         if sums["above_bound"] > 0.0:
             yield f"another allocation may be up to {100.0 * sums['above_bound']:.2g} % cheaper"
         if not sums["same_each_time"]:
             yield "the time limit ended the search: a repetition can find another allocation"
-    yield from _listed("nearest of each kind, each resource once", map(_pair, found["nearest"]))
-    yield from _listed("left out", found["left_out"])
-    yield from _listed("assumptions", found["assumptions"])
-    yield from _listed("limits", found["limits"])
+    yield from _listed("nearest of each kind, each resource once", map(_pair, result["nearest"]))
+    yield from _listed("left out", result["left_out"])
+    yield from _listed("assumptions", result["assumptions"])
+    yield from _listed("limits", result["limits"])
     yield ""
     yield label
 
 
-def _division(division: dict[str, Any], found: dict[str, Any], money: str) -> Iterator[str]:
+def _division(division: dict[str, Any], result: dict[str, Any], money: str) -> Iterator[str]:
     low, high = division["bearings"]
     front = division["perimeter"]
     head = f"division {division['name']}, {low:g} to {high:g} degrees from north"
     if not any(front):
         yield f"{head}: no front"
         return
-    if found["sums"] is None:
-        yield f"{head}: front {front[0]:,.0f} m at hour 1, {front[-1]:,.0f} m at hour {found['hours'][-1]:g}"
+    if result["sums"] is None:
+        yield f"{head}: front {front[0]:,.0f} m at hour 1, {front[-1]:,.0f} m at hour {result['hours'][-1]:g}"
         return
     hour = division["contained_at_hour"]
     if hour is None:
-        yield f"{head}: cannot be held, with a front of {front[-1]:,.0f} m at hour {found['hours'][-1]:g}"
+        yield f"{head}: cannot be held, with a front of {front[-1]:,.0f} m at hour {result['hours'][-1]:g}"
     else:
-        there = front[found["hours"].index(hour)]
+        there = front[result["hours"].index(hour)]
         yield f"{head}: contained at hour {hour:g}, line {division['line']:,.0f} m of {there:,.0f} m"
     yield from (_resource(each, money) for each in division["resources"])
     if forecast := division.get("forecast"):

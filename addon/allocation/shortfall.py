@@ -29,7 +29,7 @@ def explain(problem: Problem, names: tuple[str, ...], options: Options = USUAL) 
 
 
 def _response(problem: Problem) -> list[str]:
-    found, limit = [], problem.request.limit
+    texts, limit = [], problem.request.limit
     for kind, number in problem.request.response.items():
         of_kind = problem.of(kind)
         there = int((of_kind & problem.in_time.any(axis=1)).sum())
@@ -44,8 +44,8 @@ def _response(problem: Problem) -> list[str]:
             text += f"; {number} can arrive within {np.ceil(late[-1]):.0f} min"
         else:
             text += f"; the file has {int(of_kind.sum())}"
-        found.append(text)
-    return found
+        texts.append(text)
+    return texts
 
 
 def _line(problem: Problem, names: tuple[str, ...], options: Options) -> list[str]:

@@ -70,7 +70,7 @@ def _division(
     asked: AllocationInput, answer: Answer | None, rest: PartialPlan | None, which: int
 ) -> dict[str, Any]:
     divisions = asked.divisions
-    found: dict[str, Any] = {
+    facts: dict[str, Any] = {
         "name": divisions.names[which],
         "bearings": list(divisions.bearings(which)),
         "perimeter": divisions.perimeter[which].round(1).tolist(),
@@ -79,19 +79,19 @@ def _division(
         "resources": [],
     }
     if answer is None or which not in asked.burning:
-        return found
+        return facts
     k, problem = asked.burning.index(which), asked.problem
     hour = int(answer.hour[k])
     line = containment.built_line(problem, answer.division)[k, hour]
     held = hour >= 0
-    found |= {
+    facts |= {
         "contained_at_hour": float(problem.hours[hour]) if held else None,
         "line": round(float(line), 1),
     }
-    found["resources"] = _resources(asked, np.flatnonzero(answer.division == k), k, hour)
+    facts["resources"] = _resources(asked, np.flatnonzero(answer.division == k), k, hour)
     if not held and rest is not None:
-        found["nearest_plan"] = _partial(asked, rest, k)
-    return found
+        facts["nearest_plan"] = _partial(asked, rest, k)
+    return facts
 
 
 def _resources(asked: AllocationInput, sent: NDArray[np.int64], k: int, hour: int) -> list[dict[str, Any]]:

@@ -45,7 +45,7 @@ def place(front: Front, visible: Visible) -> PlacedCamera | None:
 
 def tried(front: Front, visible: Visible, distance: float) -> list[Tried]:
     """Candidates at a distance from flanks, with the visible share of the front that near to the aim."""
-    found = []
+    trials = []
     for at in _flanks(front):
         for number, height in enumerate(_HEIGHTS):
             for turn in _TURNS:
@@ -55,8 +55,8 @@ def tried(front: Front, visible: Visible, distance: float) -> list[Tried]:
                     continue
                 share = visible.seen(view, distance)
                 likes = candidates.liking(front, bearing) + candidates.framed(share) - _STEEP * number
-                found.append(Tried(share, likes, camera))
-    return found
+                trials.append(Tried(share, likes, camera))
+    return trials
 
 
 def _flanks(front: Front) -> NDArray[np.int64]:

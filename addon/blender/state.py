@@ -94,21 +94,21 @@ def _tree(tree: bpy.types.NodeTree) -> list[Any]:
 
 def _plain(thing: bpy.types.bpy_struct) -> list[Any]:
     """Return the properties that a picture may depend on: numbers, texts, ramps, and names of data-blocks."""
-    found: list[Any] = []
+    values: list[Any] = []
     kind: Any = type(thing)
     for name in _names(kind):
         value = getattr(thing, name)
         if isinstance(value, bpy.types.ID):
-            found.append(value.name)
+            values.append(value.name)
         elif isinstance(value, bpy.types.ColorRamp):
-            found.append([(each.position, *each.color) for each in value.elements])
+            values.append([(each.position, *each.color) for each in value.elements])
         elif isinstance(value, str | bool | int | float | None):
-            found.append(value)
+            values.append(value)
         elif isinstance(value, set):
-            found.append(sorted(value))
+            values.append(sorted(value))
         elif not isinstance(value, bpy.types.bpy_struct):
-            found.append(tuple(value))
-    return found
+            values.append(tuple(value))
+    return values
 
 
 @functools.cache

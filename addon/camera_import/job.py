@@ -81,16 +81,16 @@ def _read(arguments: argparse.Namespace, shot: Shot) -> list[Move]:
     reporter = Reporter("cameras")
     try:
         rate = shot.settings.time.rate
-        found = (
+        cameras = (
             usd.read(path, reporter)
             if suffix in _USD
             else alembic.read(path, reporter, (rate.numerator, rate.denominator))
         )
     finally:
         reporter.close()
-    if found.omitted:
-        say(f"omitted cameras that are not perspective: {', '.join(found.omitted)}")
-    return found.moves(path, _matrix(arguments, shot, found))
+    if cameras.omitted:
+        say(f"omitted cameras that are not perspective: {', '.join(cameras.omitted)}")
+    return cameras.moves(path, _matrix(arguments, shot, cameras))
 
 
 def _matrix(arguments: argparse.Namespace, shot: Shot, found: ForeignScene) -> np.ndarray:

@@ -53,13 +53,13 @@ def tours(path: Path, ground: Terrain, geoid: float) -> list[Move]:
     return [_move(path, tour, ground, geoid) for tour in _parse(path, found) if tour.views]
 
 
-def _parse(path: Path, found: list[Element]) -> list[_Tour]:
+def _parse(path: Path, elements: list[Element]) -> list[_Tour]:
     """Group the elements of tours; inner elements come first."""
-    made, tour, time = [], _Tour(), 0.0
+    tours, tour, time = [], _Tour(), 0.0
     inside: dict[str, Element] = {}
     view: tuple[Element, dict[str, Element]] | None = None
     lasts = 0.0
-    for element in found:
+    for element in elements:
         if element.name in ("Camera", "LookAt"):
             view, inside = (element, inside) if element.parent == "FlyTo" else None, {}
         elif element.name == "duration" and element.parent in ("FlyTo", "Wait"):
@@ -73,13 +73,13 @@ def _parse(path: Path, found: list[Element]) -> list[_Tour]:
                 tour.times.append(time)
             view, lasts = None, 0.0
         elif element.name == "Tour":
-            made.append(tour)
+            tours.append(tour)
             tour, time = _Tour(), 0.0
         elif element.name == "name":
             tour.name = element.text.strip() if element.parent == "Tour" else tour.name
         elif element.parent in ("Camera", "LookAt"):
             inside[element.name] = element
-    return made
+    return tours
 
 
 def _move(path: Path, tour: _Tour, ground: Terrain, geoid: float) -> Move:

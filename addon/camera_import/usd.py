@@ -51,19 +51,19 @@ def in_blender(path: str, progress: Progress, tell: MessageCallback) -> dict[str
     if not (_LEAST_UNIT < unit < 1.0 / _LEAST_UNIT and 0.0 < rate < 1.0e6):
         raise input_error(Path(path), "has no valid metersPerUnit or timeCodesPerSecond")
     upright = _Z_UP if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y else np.eye(4)
-    found: dict[str, Any] = {"rate": rate, "origin": None, "cameras": [], "omitted": []}
+    content: dict[str, Any] = {"rate": rate, "origin": None, "cameras": [], "omitted": []}
     for prim in stage.Traverse():
         if prim.GetTypeName() == "CesiumGeoreferencePrim":
             values = [prim.GetAttribute(name).Get() for name in _ORIGIN]
-            found["origin"] = None if None in values else list(map(float, values))
+            content["origin"] = None if None in values else list(map(float, values))
         elif prim.IsA(UsdGeom.Camera):
             camera = UsdGeom.Camera(prim)
             orthographic = camera.GetProjectionAttr().Get() == UsdGeom.Tokens.orthographic
             if orthographic or prim.GetCustomDataByKey("firetwin:projection") == "panorama":
-                found["omitted"].append(_name(prim))
+                content["omitted"].append(_name(prim))
             else:
-                found["cameras"].append(_sample(Path(path), prim, camera, unit, upright))
-    return found
+                content["cameras"].append(_sample(Path(path), prim, camera, unit, upright))
+    return content
 
 
 def _name(prim: Any) -> str:

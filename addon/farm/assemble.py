@@ -66,8 +66,8 @@ def check_pictures(
     -------
     The entries of each intact picture, and the missing pictures with their reasons.
     """
-    known = entries.by_path(entries.attempts(out))
-    every = (entry for made in known.values() for entry in made)
+    entries_of = entries.by_path(entries.attempts(out))
+    every = (entry for made in entries_of.values() for entry in made)
     verified = {entry.path: entry for entry in verified_entries(every, out, made_with)}
     keys = {pair: content.fingerprint(values) for pair, values in made_with.items()}
     intact: list[list[Entry]] = []
@@ -75,7 +75,7 @@ def check_pictures(
     for picture in (each for part in job.tasks for each in job.pictures(part)):
         paths = picture.files()
         if lacking := [path for path in paths if path not in verified]:
-            missing[picture] = _why(known.get(lacking[0], []), out, keys[picture.camera, picture.name])
+            missing[picture] = _why(entries_of.get(lacking[0], []), out, keys[picture.camera, picture.name])
         else:
             intact.append([verified[path] for path in paths])
     return intact, missing

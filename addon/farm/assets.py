@@ -28,9 +28,9 @@ def list_assets(shot: Shot) -> list[Path]:
         A file is missing.
     """
     settings = shot.settings
-    found = [settings.path]
+    paths = [settings.path]
     for run in (shot.run, *shot.others.values()):
-        found += [Path(run.path) / name for name in content.stamps(run)]
+        paths += [Path(run.path) / name for name in content.stamps(run)]
     terrain, labels, stations = settings.terrain, settings.labels, settings.stations
     photo = [terrain.photo, orthophoto.world_file(terrain.photo)] if terrain.photo else []
     optional = [
@@ -43,15 +43,15 @@ def list_assets(shot: Shot) -> list[Path]:
     ]
     if stations.enabled:
         optional += [stations.file, stations.footprints, stations.routes_file]
-    found += [path for path in optional if path is not None]
-    found += forecast.files(settings)
-    found += [part for path in observed.files(settings) for part in _with_parts(path)]
-    found += [path for camera in settings.cameras for path in camera.rig.input_files()]
+    paths += [path for path in optional if path is not None]
+    paths += forecast.files(settings)
+    paths += [part for path in observed.files(settings) for part in _with_parts(path)]
+    paths += [path for camera in settings.cameras for path in camera.rig.input_files()]
     above = settings.path.parent / settings.tiles.root if settings.tiles.root else None
-    found += [
+    paths += [
         path for place in settings.tiles.sources for path in _tileset(settings.path.parent / place, above)
     ]
-    every = sorted({path.absolute() for path in found})
+    every = sorted({path.absolute() for path in paths})
     for path in every:
         if not path.is_file():
             raise input_error(
@@ -83,17 +83,17 @@ def _tileset(path: Path, above: Path | None) -> list[Path]:
     folder = path.parent if path.suffix.lower() == ".json" else path
     if not folder.is_dir():
         return [path] if path.is_file() else []
-    found: set[Path] = set()
-    waiting = _add(found, folder.rglob("*"), folder)
+    files: set[Path] = set()
+    waiting = _add(files, folder.rglob("*"), folder)
     listed: set[tuple[Path, str]] = set()
     while above is not None and waiting:
         for place, pattern in {*_outside(waiting.pop(), folder, above)} - listed:
             listed.add((place, pattern))
-            waiting += _add(found, place.glob(pattern), folder)
-    return sorted(found)
+            waiting += _add(files, place.glob(pattern), folder)
+    return sorted(files)
 
 
-def _add(found: set[Path], paths: Iterable[Path], folder: Path) -> list[Path]:
+def _add(files: set[Path], paths: Iterable[Path], folder: Path) -> list[Path]:
     """Add files to a tileset in a folder; return the new documents.
 
     Raises
@@ -101,12 +101,12 @@ def _add(found: set[Path], paths: Iterable[Path], folder: Path) -> list[Path]:
     InputError
         The files are too many.
     """
-    most = limits.FARM_FILES - len(found) + 1
-    new = list(itertools.islice((each for each in paths if each not in found and each.is_file()), most))
+    most = limits.FARM_FILES - len(files) + 1
+    new = list(itertools.islice((each for each in paths if each not in files and each.is_file()), most))
     if len(new) == most:
         reason = f"has or needs more than {limits.FARM_FILES:,} files; pack the tileset into a .3tz archive"
         raise input_error(folder, reason)
-    found.update(new)
+    files.update(new)
     return [each for each in new if each.suffix.lower() == ".json"]
 
 

@@ -63,19 +63,19 @@ def _add(parser: argparse.ArgumentParser) -> None:
         ("task", "run tasks of a job; schedulers call this"),
         ("assemble", "check all pictures, then write films and manifest"),
     ):
-        found = add_verb(verbs, name, summary)
-        found.add_argument("out", metavar="DIR", type=types.path, help="folder of the film")
+        verb = add_verb(verbs, name, summary)
+        verb.add_argument("out", metavar="DIR", type=types.path, help="folder of the film")
         if name == "status":
-            found.add_argument("--json", action="store_true", help="write JSON")
+            verb.add_argument("--json", action="store_true", help="write JSON")
         if name in ("task", "assemble"):
-            found.add_argument(
+            verb.add_argument(
                 "--scene",
                 metavar="FILE",
                 type=types.path,
                 help="scene file on this machine (path at planning)",
             )
         if name == "task":
-            found.add_argument("numbers", metavar="N", help="task numbers, such as 7 or 3-5")
+            verb.add_argument("numbers", metavar="N", help="task numbers, such as 7 or 3-5")
 
 
 def _run(arguments: argparse.Namespace) -> int | None:

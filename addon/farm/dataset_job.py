@@ -41,10 +41,12 @@ def make_job(plan: Path, out: Path, size: int) -> Job:
     Error
         The plan is invalid; the process has printed the reason.
     """
-    found = json.loads(_call([str(plan), "--out", str(out / FOLDER), "--estimate", "--json"], capture=True))
+    estimate = json.loads(
+        _call([str(plan), "--out", str(out / FOLDER), "--estimate", "--json"], capture=True)
+    )
     tasks: list[list[int]] = []
-    for listed in found["scenes"]:
-        samples = FrameList(listed).frames(found["count"])
+    for listed in estimate["scenes"]:
+        samples = FrameList(listed).frames(estimate["count"])
         if tasks and len(tasks[-1]) + len(samples) <= size:
             tasks[-1] += samples
         else:
@@ -53,7 +55,7 @@ def make_job(plan: Path, out: Path, size: int) -> Job:
         scene=str(plan),
         scene_sha256=sha256(plan),
         versions=fingerprint.versions(),
-        count=found["count"],
+        count=estimate["count"],
         camera_frames={},
         passes={},
         tasks=tuple(Task("render", (), FrameList.of(sorted(each))) for each in tasks),

@@ -187,14 +187,14 @@ def by_path(found: list[Attempt]) -> dict[str, list[Entry]]:
 def _read(path: Path) -> Attempt:
     text = path.read_text(encoding="utf-8")
     whole = text[: text.rfind("\n") + 1]
-    made = Attempt(int(path.name.partition("-")[0]), whole, path.stat().st_mtime)
+    attempt = Attempt(int(path.name.partition("-")[0]), whole, path.stat().st_mtime)
     first, last = _value(whole.partition("\n")[0]), _value(whole[:-1].rpartition("\n")[2])
     if isinstance(first, dict) and "began" in first:
-        made.began, made.host = first["began"], first["host"]
-        made.process, made.scheduled = first.get("process", 0), first.get("scheduled", "")
+        attempt.began, attempt.host = first["began"], first["host"]
+        attempt.process, attempt.scheduled = first.get("process", 0), first.get("scheduled", "")
     if isinstance(last, dict) and "ended" in last:
-        made.ended, made.message, made.last = last["ended"], last["message"], last["at"]
-    return made
+        attempt.ended, attempt.message, attempt.last = last["ended"], last["message"], last["at"]
+    return attempt
 
 
 def _lines(text: str) -> list[Any]:

@@ -177,15 +177,15 @@ def split_frames(listed: list[int], size: int, built: int) -> list[list[int]]:
         build chunks, or some frames of a single one. In the latter case it still builds the complete chunk,
         so that its pictures do not depend on `size`.
     """
-    found: list[list[int]] = []
+    chunks: list[list[int]] = []
     split = True
     for part in frames.parts(listed, built).values():
-        if not split and len(found[-1]) + len(part) <= size:
-            found[-1] += part
+        if not split and len(chunks[-1]) + len(part) <= size:
+            chunks[-1] += part
         else:
             split = len(part) > size
-            found += _evenly(part, size)
-    return found
+            chunks += _evenly(part, size)
+    return chunks
 
 
 def _evenly(listed: list[int], size: int) -> Iterator[list[int]]:

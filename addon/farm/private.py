@@ -36,13 +36,13 @@ class PrivateFolder:
 
     def seed(self, intact: Iterable[Entry], made_with: Fingerprints) -> None:
         """Enter the intact files of the film, so that they are not rendered again."""
-        found: dict[tuple[str, str], dict[str, dict[str, object]]] = defaultdict(dict)
+        rows: dict[tuple[str, str], dict[str, dict[str, object]]] = defaultdict(dict)
         for each in intact:
             with writing(self.folder / each.path):
                 _link_or_copy(self.out / each.path, self.folder / each.path)
-            found[each.camera, each.name][each.path] = each.as_row()
+            rows[each.camera, each.name][each.path] = each.as_row()
         with Store(self.folder, create=True) as store:
-            for pair, made in found.items():
+            for pair, made in rows.items():
                 store.add(made_with[pair], made)
             self.published = store.latest_number()
 

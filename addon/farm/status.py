@@ -93,14 +93,14 @@ def gather(out: Path, now: float | None = None) -> Status:
 def rows(status: Status) -> list[tuple[str, str]]:
     """List the rows of the summary: label and text."""
     parts = [f"{len(getattr(status, name))} {name}" for name in ("done", "running", "failed", "waiting")]
-    found = [
+    lines = [
         ("tasks", f"{', '.join(parts)}, of {status.tasks}"),
         ("pictures", f"{status.finished:,} of {count(status.pictures, 'picture')}"),
     ]
     if status.finished < status.pictures and status.seconds_left is not None:
         at_once = max(len(status.running), 1)
-        found.append(("left", f"{duration(status.seconds_left)} with {count(at_once, 'task')} at once"))
-    return found
+        lines.append(("left", f"{duration(status.seconds_left)} with {count(at_once, 'task')} at once"))
+    return lines
 
 
 def failures(status: Status) -> list[str]:
@@ -133,13 +133,13 @@ class _FolderListings:
 def _made(job: Job, number: int, tried: list[Attempt], there: _FolderListings) -> tuple[int, int, int]:
     """Count the finished pictures of a task, all its pictures, and the files of missing pictures."""
     task, entered = job.task(number), set[str]().union(*(each.paths for each in tried))
-    made = every = lacking = 0
+    finished_files = every = lacking = 0
     if task.stage != "render":
         return 0, 0, 0
     if job.samples:
         asked = FrameList(task.frames).frames(job.count)
-        found = len(asked) - len(dataset_job.missing(there.out, asked))
-        return found, len(asked), len(asked) - found
+        finished = len(asked) - len(dataset_job.missing(there.out, asked))
+        return finished, len(asked), len(asked) - finished
     for camera in task.cameras:
         listed = job.frames(task, camera)
         for view in job.views(camera):
@@ -147,13 +147,13 @@ def _made(job: Job, number: int, tried: list[Attempt], there: _FolderListings) -
                 files = _files(view, name, listed)
                 known = there.paths(files[0][0].rpartition("/")[0]) if listed else set()
                 if all(entered.issuperset(each) and known.issuperset(each) for each in files):
-                    found = len(listed)
+                    finished = len(listed)
                 else:
                     both = entered & known
-                    found = sum(both.issuperset(picture) for picture in zip(*files, strict=True))
-                made, every = made + found, every + len(listed)
-                lacking += (len(listed) - found) * len(files)
-    return made, every, lacking
+                    finished = sum(both.issuperset(picture) for picture in zip(*files, strict=True))
+                finished_files, every = finished_files + finished, every + len(listed)
+                lacking += (len(listed) - finished) * len(files)
+    return finished_files, every, lacking
 
 
 def _files(view: str, name: str, listed: list[int]) -> list[list[str]]:

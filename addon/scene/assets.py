@@ -80,7 +80,7 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
     return sum(block.asset_data is not None for kind in blocks for block in kind)
 
 
-def _mark_trees(made: bpy.types.Collection, identify: Identify, progress: Progress) -> None:
+def _mark_trees(library: bpy.types.Collection, identify: Identify, progress: Progress) -> None:
     """Name and mark the finest level of every model, and render its preview."""
     count: dict[str, int] = defaultdict(int)
     every = models.every()
@@ -88,7 +88,7 @@ def _mark_trees(made: bpy.types.Collection, identify: Identify, progress: Progre
         studio = _Studio(Path(folder))
         for k, model in enumerate(every):
             progress(k, len(every), "drawing the trees")
-            obj = made.objects[f"Firetwin Tree {k:02d} 0"]
+            obj = library.objects[f"Firetwin Tree {k:02d} 0"]
             high = HEIGHTS[model.kind] > _HIGH or (model.kind, model.state) == ("brush", "living")
             what = _model_name(model)
             if model.state == "snag":

@@ -51,7 +51,7 @@ class ComparisonShot(Shot):
                 run=own.path,
                 runs=(),
                 time=replace(settings.time, start=begin, end=end if shown.count > 1 else None),
-                render=replace(settings.render, passes=_alone(settings.render.passes)),
+                render=replace(settings.render, passes=_uncompared(settings.render.passes)),
                 cameras=tuple(_renamed(camera, label) for camera in settings.cameras),
             ),
             first.others[label],
@@ -140,10 +140,10 @@ def _renamed(camera: Camera, label: str) -> Camera:
     follows = getattr(camera.rig, "follows", "")
     rig = replace(camera.rig, follows=passes.view_of(follows, label)) if follows else camera.rig
     name = passes.view_of(camera.name, label)
-    return replace(camera, name=name, rig=rig, passes=_alone(camera.passes))
+    return replace(camera, name=name, rig=rig, passes=_uncompared(camera.passes))
 
 
-def _alone(names: tuple[str, ...]) -> tuple[str, ...]:
+def _uncompared(names: tuple[str, ...]) -> tuple[str, ...]:
     """Replace passes that compare runs by the passes that they are made from."""
     return passes.in_other_runs(names) or names
 

@@ -56,28 +56,28 @@ def add_stations(parser: argparse.ArgumentParser) -> None:
         )
         parser.add_argument("--overwrite", action="store_true", help="replace an existing file")
 
-    made = add_verb(verbs, "import", "make a station file from other files")
-    made.add_argument("files", metavar="FILE", nargs="+", type=types.path, help="files in any known format")
-    out(made)
-    made.add_argument("--source", metavar="NAME", default="", help="name of the source (by format)")
-    made.add_argument("--licence", metavar="TEXT", default="", help="licence of the data (by format)")
-    made.add_argument("--url", metavar="URL", default="", help="address of the source (by format)")
-    made.add_argument(
+    verb = add_verb(verbs, "import", "make a station file from other files")
+    verb.add_argument("files", metavar="FILE", nargs="+", type=types.path, help="files in any known format")
+    out(verb)
+    verb.add_argument("--source", metavar="NAME", default="", help="name of the source (by format)")
+    verb.add_argument("--licence", metavar="TEXT", default="", help="licence of the data (by format)")
+    verb.add_argument("--url", metavar="URL", default="", help="address of the source (by format)")
+    verb.add_argument(
         "--date",
         metavar="DAY",
         type=_day,
         default=None,
         help="date of the data, such as 2026-11-25 (from the data or the file)",
     )
-    made.add_argument(
+    verb.add_argument(
         "--column", metavar="MEANING=COLUMN", type=_column, action="append", default=[],
         help="column of tables and layers, such as name=Station_Name (guessed); repeat it",
     )  # fmt: skip
-    made.add_argument(
+    verb.add_argument(
         "--crs", metavar="CODE", type=_crs,
         help="reference system of files that name none, such as EPSG:26910 or utm10n (degrees, Web Mercator)",
     )  # fmt: skip
-    made.add_argument(
+    verb.add_argument(
         "--skip-bad", action="store_true", help="omit files that cannot be read or have no valid row"
     )
 
@@ -252,13 +252,13 @@ def parse_types(text: str) -> tuple[str, ...]:
     argparse.ArgumentTypeError
         The list is empty, or a range goes backwards.
     """
-    found: list[str] = []
+    types: list[str] = []
     for part in _words(text):
         match = re.fullmatch(r"(\d)-(\d)", part, re.ASCII)
         if match and match[1] > match[2]:
             raise argparse.ArgumentTypeError(f"{part!r} goes backwards; write {match[2]}-{match[1]}")
-        found += [str(k) for k in range(int(match[1]), int(match[2]) + 1)] if match else [part]
-    return tuple(found)
+        types += [str(k) for k in range(int(match[1]), int(match[2]) + 1)] if match else [part]
+    return tuple(types)
 
 
 def _among(known: tuple[str, ...]) -> Callable[[str], tuple[str, ...]]:

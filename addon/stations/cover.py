@@ -121,10 +121,10 @@ def _extend(states: _States, price: int, gain: int, need: int) -> _States:
 
 def _backtrack(steps: list[_States], state: int) -> Whole:
     """Return the items of a state of the last step."""
-    found = []
+    items = []
     for item in range(len(steps) - 1, 0, -1):
         step = steps[item]
         if step.taken[state]:
-            found.append(item - 1)
+            items.append(item - 1)
         state = int(step.before[state])
-    return np.array(found[::-1], np.int64)
+    return np.array(items[::-1], np.int64)

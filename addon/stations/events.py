@@ -31,22 +31,22 @@ class Event(NamedTuple):
 Place = Label | Station
 
 
-def reports(found: dict[str, Any], unit: str) -> list[tuple[str, str]]:
+def reports(facts: dict[str, Any], unit: str) -> list[tuple[str, str]]:
     """Return time and text of the start and the end of a run, and of reported areas in between.
 
     Parameters
     ----------
-    found
+    facts
         Summary of the run (`info.gather`).
     unit
         Unit of areas.
     """
     reported = (
         (each["time"], f"{info.format_area(each['reported'], unit)} {unit} reported")
-        for each in found["reported"]
+        for each in facts["reported"]
         if each["run"] is not None
     )
-    at = found["times"]
+    at = facts["times"]
     return [(at["first"], "the run begins"), *reported, (at["last"], "the run ends")]
 
 

@@ -189,14 +189,14 @@ def windows_at(station_file: StationFile, at: datetime) -> NDArray[np.int64]:
 
     If windows overlap, the last one to begin applies.
     """
-    found, windows, time = (
+    window_of_row, windows, time = (
         np.full(len(station_file.resources), -1, np.int64),
         station_file.windows,
         at.timestamp(),
     )
     now = (windows.begins <= time) & (time < windows.ends)
-    found[windows.row[now]] = np.flatnonzero(now)  # the last window of a row wins
-    return found
+    window_of_row[windows.row[now]] = np.flatnonzero(now)  # the last window of a row wins
+    return window_of_row
 
 
 def _whole(values: Array) -> NDArray[np.int64]:

@@ -27,13 +27,13 @@ class MemberArrivals:
     zone: str
 
     @classmethod
-    def at(cls, found: Ensemble, stations: Sequence[Station], run: Run | None) -> MemberArrivals:
+    def at(cls, ensemble: Ensemble, stations: Sequence[Station], run: Run | None) -> MemberArrivals:
         """Sample the members at stations, with the time zone of the run, if there is one."""
-        where = zone.of_longitude(float(found.longitude.mean())) if run is None else zone.time_zone(run)
+        where = zone.of_longitude(float(ensemble.longitude.mean())) if run is None else zone.time_zone(run)
         latitude, longitude = (
             [getattr(each, axis) for each in stations] for axis in ("latitude", "longitude")
         )
-        return cls(place_arrivals.sample(found, latitude, longitude), where)
+        return cls(place_arrivals.sample(ensemble, latitude, longitude), where)
 
     def heads(self) -> list[str]:
         """Return the titles of the columns."""
@@ -42,26 +42,29 @@ class MemberArrivals:
 
     def cells(self, station: int) -> list[str]:
         """Return the cells of a station."""
-        found, known = self.arrivals, self.arrivals.known(station)
-        if not len(known):
+        arrivals, arrival_times = self.arrivals, self.arrivals.known(station)
+        if not len(arrival_times):
             return ["not simulated"] * 3
-        never = int(np.isinf(known).sum())
-        near = int(found.near[station])
+        never = int(np.isinf(arrival_times).sum())
+        near = int(arrivals.near[station])
         close = f", within {place_arrivals.NEAR / 1000.0:g} km in {near}" if near else ""
-        times = (found.by_text(station, share, self.zone) for share in _SHOWN)
-        return [*times, f"{never} of {len(known)}{close}"]
+        times = (arrivals.by_text(station, share, self.zone) for share in _SHOWN)
+        return [*times, f"{never} of {len(arrival_times)}{close}"]
 
     def as_json(self, station: int) -> dict[str, Any]:
         """Return the quantiles of a station as JSON data; times in UTC, null: later or never."""
-        found, known = self.arrivals, self.arrivals.known(station)
-        quantiles = [(share, found.by(station, share)) for share in SHARES]
+        arrivals, known = self.arrivals, self.arrivals.known(station)
+        quantiles = [(share, arrivals.by(station, share)) for share in SHARES]
         return {
-            "text": found.sentence(station, self.zone),
+            "text": arrivals.sentence(station, self.zone),
             "members": len(known),
             "not_reached": int(np.isinf(known).sum()),
-            "near": int(found.near[station]),
+            "near": int(arrivals.near[station]),
             "burned_by": [
-                {"share": share, "time": times.iso(found.ensemble.valid(time)) if np.isfinite(time) else None}
+                {
+                    "share": share,
+                    "time": times.iso(arrivals.ensemble.valid(time)) if np.isfinite(time) else None,
+                }
                 for share, time in quantiles
             ],
         }
@@ -77,13 +80,13 @@ class MemberArrivals:
 
     def notes(self) -> list[str]:
         """Describe the forecast, and say that "later or never" is not safe."""
-        found = self.arrivals.ensemble
-        total = len(found.members) + len(found.left_out)
-        issued, end = (times.text(found.valid(time), self.zone) for time in (0.0, found.horizon))
+        ensemble = self.arrivals.ensemble
+        total = len(ensemble.members) + len(ensemble.left_out)
+        issued, end = (times.text(ensemble.valid(time), self.zone) for time in (0.0, ensemble.horizon))
         note = self.arrivals.weights_note()
         return [
-            f"forecast: {found.manifest.name}, {self.arrivals.count} of {total} members, issued {issued}"
-            + (" (synthetic)" if found.manifest.synthetic else ""),
+            f"forecast: {ensemble.manifest.name}, {self.arrivals.count} of {total} members, issued {issued}"
+            + (" (synthetic)" if ensemble.manifest.synthetic else ""),
             f'forecast: it ends {end}; "later or never" is not "safe"',
             *([f"forecast: {note}"] if note else []),
         ]

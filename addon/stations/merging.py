@@ -121,15 +121,15 @@ def _add_resources(merged: _Merged, batch: Batch, source: Source) -> int:
     """
     by_word = _stations_by_word(merged.stations)
     number = max((each.id for each in merged.resources), default=0)
-    known: dict[tuple[int, str, str], int] = {}
+    numbers: dict[tuple[int, str, str], int] = {}
     for draft in batch.resources:
         station = _station_of(by_word, draft, batch)
         if station is None:
             continue
         key = station, draft.resource.type, draft.resource.name
-        if key not in known or draft.window is None:
+        if key not in numbers or draft.window is None:
             number += 1
-            known[key] = number
+            numbers[key] = number
             made = replace(draft.resource, id=number, station=station, source=source.id)
             merged.resources.append(made)
             own = types.user_type(made.type)
@@ -137,8 +137,8 @@ def _add_resources(merged: _Merged, batch: Batch, source: Source) -> int:
                 merged.types.setdefault(own.code, own)
         if draft.window is not None:
             begins, ends, status, area = draft.window
-            merged.availability.append(Availability(known[key], begins, ends, status, area))
-    return len(known)
+            merged.availability.append(Availability(numbers[key], begins, ends, status, area))
+    return len(numbers)
 
 
 def _stations_by_word(stations: Iterable[Station]) -> dict[str, set[int]]:

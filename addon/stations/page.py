@@ -66,7 +66,7 @@ class Answer:
         """
         if self.run is None and self.forecast is not None:
             return self._ahead_of_members(self.forecast)
-        found, arrivals, run = self.found, self.arrivals, self.run
+        result, arrivals, run = self.found, self.arrivals, self.run
         if arrivals is None or run is None:
             return self
         then = -np.inf if self.query.at is None else times.seconds(run, self.query.at)
@@ -78,8 +78,8 @@ class Answer:
         )
         order = np.flatnonzero(keep)
         order = order[np.argsort(arrivals.nearest_time[order], kind="stable")]
-        matches: Any = [found.matches[k] for k in order]
-        return replace(self, found=replace(found, matches=matches, left_out=found.left_out | dict(reasons)))
+        matches: Any = [result.matches[k] for k in order]
+        return replace(self, found=replace(result, matches=matches, left_out=result.left_out | dict(reasons)))
 
     def _ahead_of_members(self, forecast: MemberArrivals) -> Answer:
         found, order = self.found, forecast.ahead(self.query.at)
@@ -154,11 +154,11 @@ class Answer:
 
     def format_text(self) -> str:
         """Format the result as text."""
-        found, lines = self.found, [EXERCISE] if self.exercise else []
+        result, lines = self.found, [EXERCISE] if self.exercise else []
         rows = [self._row(k, each) for k, each in enumerate(self.matches)]
         if rows:
             heads = ["km", "origin", "station"]
-            if isinstance(found, search.Found):
+            if isinstance(result, search.Found):
                 heads = [
                     "min",
                     "km",
@@ -172,19 +172,19 @@ class Answer:
             more = [*(["fire"] if self.run else []), *(self.forecast.heads() if self.forecast else [])]
             lines += _table(heads + more, rows)
         lines.append(self._sum())
-        lines += [f"left out: {number:,} {reason}" for reason, number in found.left_out.items()]
+        lines += [f"left out: {number:,} {reason}" for reason, number in result.left_out.items()]
         lines += self.assumptions()
         lines += [_source_line(asdict(source)) for source in self.sources]
         return "\n".join(lines)
 
     def _sum(self) -> str:
-        found = self.found
-        if not isinstance(found, search.Found):
+        result = self.found
+        if not isinstance(result, search.Found):
             return count(len(self.matches), "station")
-        text = count(len(found.matches), "resource")
-        if found.candidates:
-            text += f" of {found.candidates:,}: {found.cost:,.0f} {self.query.currency}"
-        return text + (f", {found.tonnes_per_hour:.1f} t/h" if found.matches else "")
+        text = count(len(result.matches), "resource")
+        if result.candidates:
+            text += f" of {result.candidates:,}: {result.cost:,.0f} {self.query.currency}"
+        return text + (f", {result.tonnes_per_hour:.1f} t/h" if result.matches else "")
 
     def _row(self, index: int, match: search.Match | station_search.StationMatch) -> list[str]:
         fire = [self._arrival_text(index).headline] if self.run else []
@@ -205,7 +205,7 @@ class Answer:
         """
         arrivals, run = self.arrivals, self.run
         assert arrivals is not None and run is not None  # noqa: PT018
-        known = arrivals.utc(run, index)
+        utc_times = arrivals.utc(run, index)
         names = ("time", "earliest_cell", "latest_cell")
         near = float(arrivals.nearest_km[index])
         there = None if np.isnan(near) else times.utc(run, float(arrivals.nearest_time[index]))
@@ -214,7 +214,7 @@ class Answer:
             "text": str(self._arrival_text(index)),
             "nearest_km": None if there is None else near,
             "nearest_time": None if there is None else times.iso(there),
-        } | {name: None if known is None else times.iso(known[k]) for k, name in enumerate(names)}
+        } | {name: None if utc_times is None else times.iso(utc_times[k]) for k, name in enumerate(names)}
 
     def _arrival_text(self, index: int) -> arrival_text.ArrivalText:
         arrivals, run = self.arrivals, self.run
@@ -251,22 +251,22 @@ def facts(station_file: StationFile) -> dict[str, Any]:
     }
 
 
-def format_facts(known: dict[str, Any]) -> str:
+def format_facts(facts: dict[str, Any]) -> str:
     """Format `facts` as text."""
-    lines = [known["label"]] if known["exercise"] else []
-    lines.append(f"stations   {known['stations']:,}")
-    if known["latitude"]:
-        (south, north), (west, east) = known["latitude"], known["longitude"]
+    lines = [facts["label"]] if facts["exercise"] else []
+    lines.append(f"stations   {facts['stations']:,}")
+    if facts["latitude"]:
+        (south, north), (west, east) = facts["latitude"], facts["longitude"]
         lines.append(f"extent     {south:.4f} to {north:.4f} N, {west:.4f} to {east:.4f} E")
-    lines.append(f"resources  {known['resources']:,}")
-    lines += [f"  {escaped(code):<14} {number:,}" for code, number in known["types"].items()]
-    if known["areas"]:
-        lines.append(f"areas      {known['areas']:,}")
-    lines += [f"origin     {origin}: {count(number, 'row')}" for origin, number in known["origins"].items()]
-    windows = known["windows"]
+    lines.append(f"resources  {facts['resources']:,}")
+    lines += [f"  {escaped(code):<14} {number:,}" for code, number in facts["types"].items()]
+    if facts["areas"]:
+        lines.append(f"areas      {facts['areas']:,}")
+    lines += [f"origin     {origin}: {count(number, 'row')}" for origin, number in facts["origins"].items()]
+    windows = facts["windows"]
     if windows["count"]:
         lines.append(f"windows    {windows['count']:,}, {windows['begins']} to {windows['ends']}")
-    lines += [_source_line(source) for source in known["sources"]]
+    lines += [_source_line(source) for source in facts["sources"]]
     return "\n".join(lines)
 
 

@@ -77,25 +77,25 @@ class _Reader:
         names = [each.name for each in fields(kind)]
         texts = [k for k, each in enumerate(fields(kind)) if each.type == "str"]
         flags = [k for k, each in enumerate(fields(kind)) if each.type == "bool"]
-        found = []
+        records = []
         for row in self.base.rows(table, names, key):
             values = list(row)
             for k in texts:
                 values[k] = _text(values[k])
             for k in flags:
                 values[k] = bool(values[k])
-            found.append(kind(*values))
-        return tuple(found)
+            records.append(kind(*values))
+        return tuple(records)
 
     def stations(self) -> tuple[Station, ...]:
-        found = []
+        stations = []
         more = (_STAFFING,) if _STAFFING in self.base.columns("station") else ()
         for number, blob, name, origin, source, *texts in self.base.rows("station", _STATION + more, "fid"):
             latitude, longitude = self.position(number, blob)
-            found.append(
+            stations.append(
                 Station(number, _text(name), latitude, longitude, origin, source, *map(_text, texts))
             )
-        return tuple(found)
+        return tuple(stations)
 
     def position(self, number: int, blob: Any) -> tuple[float, float]:
         found = position(blob) if isinstance(blob, bytes) else None
@@ -130,13 +130,13 @@ class _Reader:
         return when.astimezone(UTC) if when.tzinfo else when.replace(tzinfo=UTC)
 
     def areas(self) -> tuple[Area, ...]:
-        found = []
+        areas = []
         for number, blob, name, kind, station in self.base.rows("area", _AREA, "fid"):
             polygons = geopackage.polygons(blob) if isinstance(blob, bytes) else ()
             if not polygons:
                 self.fail("area", number, "has no polygon; draw it again, or remove it")
-            found.append(Area(number, _text(name), _text(kind), station, polygons))
-        return tuple(found)
+            areas.append(Area(number, _text(name), _text(kind), station, polygons))
+        return tuple(areas)
 
     def check(self, station_file: StationFile) -> None:
         """Check references, words and numbers that other programs may have written."""

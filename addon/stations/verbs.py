@@ -135,13 +135,13 @@ def find_resources(arguments: argparse.Namespace, fire: OpenFire) -> int:
     query = _query(arguments, _near(arguments, opened))
     if arguments.stations or not station_file.resources:
         _check_stations(arguments)
-        found: search.Found | station_search.Found = station_search.survey(station_file, query)
+        matches: search.Found | station_search.Found = station_search.survey(station_file, query)
     else:
-        found = search.survey(station_file, query)
+        matches = search.survey(station_file, query)
     members = None
     if arguments.ensemble is not None:
         members = place_arrivals.open_forecast(arguments.ensemble, "the list")
-    answer = page.Answer(station_file, query, found, opened.run if opened else None, members)
+    answer = page.Answer(station_file, query, matches, opened.run if opened else None, members)
     if arguments.ahead:
         answer = answer.ahead(arguments.clearance)
     result(
@@ -189,13 +189,13 @@ def _near(arguments: argparse.Namespace, fire: Fire | None) -> tuple[float, floa
     if fire is None or not isinstance(arguments.near, str):
         return arguments.near
     if arguments.near == "head":
-        found, source = fire.head(arguments.available_at), "the run's front"
+        position, source = fire.head(arguments.available_at), "the run's front"
     else:
-        found, source = ignition.find(fire.run) or (None, "")
-    if found is None:
+        position, source = ignition.find(fire.run) or (None, "")
+    if position is None:
         raise input_error(arguments.run, f"has no fire and therefore no {arguments.near}; give LAT,LON")
-    say(f"{arguments.near}: {found[0]:.4f}, {found[1]:.4f} ({source})")
-    return found
+    say(f"{arguments.near}: {position[0]:.4f}, {position[1]:.4f} ({source})")
+    return position
 
 
 def _query(arguments: argparse.Namespace, near: tuple[float, float] | None) -> Query:

@@ -122,18 +122,18 @@ class _Measured:
 
     def extend(self) -> None:
         """Measure tiles that were read since the last call."""
-        tree, known = self.loader.tree, len(self.error)
-        if known == tree.size:
+        tree, measured_count = self.loader.tree, len(self.error)
+        if measured_count == tree.size:
             return
-        new = np.arange(known, tree.size)
+        new = np.arange(measured_count, tree.size)
         volumes = self.to_scene(tree.volumes.take(new))
-        self.error = np.concatenate([self.error, self.visible_error(volumes, tree.error[known:])])
+        self.error = np.concatenate([self.error, self.visible_error(volumes, tree.error[measured_count:])])
         outside = np.zeros(len(new), bool)
-        asking = [tile for tile in sorted(tree.request) if tile >= known]
+        asking = [tile for tile in sorted(tree.request) if tile >= measured_count]
         if asking:
             request = self.to_scene(Volumes.concatenate([tree.request[tile] for tile in asking]))
             inside = tiles.contains_any(*_arrays(request), self.views.eyes)
-            outside[np.array(asking) - known] = ~inside
+            outside[np.array(asking) - measured_count] = ~inside
         self.outside_request_volume = np.concatenate([self.outside_request_volume, outside])
 
     def to_scene(self, volumes: Volumes) -> Volumes:

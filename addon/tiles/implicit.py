@@ -101,13 +101,13 @@ class _Cells:
     parent: NDArray[np.int64]
 
 
-def _available(tree: Tree, found: Availability, job: Subtree, levels: int, name: str) -> _Cells:
+def _available(tree: Tree, availability: Availability, job: Subtree, levels: int, name: str) -> _Cells:
     """List the tiles that are available and have available parents."""
     branches = job.scheme.branches
     parts: list[tuple[NDArray[np.int64], ...]] = []
     morton, above, start, rows = np.zeros(1, np.int64), np.full(1, -1, np.int64), 0, 0
     for level in range(levels):
-        here = found.tiles.at(start + morton)
+        here = availability.tiles.at(start + morton)
         morton, above = morton[here], above[here]
         tree.check_room(rows + len(morton), name)
         parts.append((start + morton, np.full(len(morton), level), morton, above))
@@ -118,10 +118,12 @@ def _available(tree: Tree, found: Availability, job: Subtree, levels: int, name:
     return _Cells(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def _append(tree: Tree, job: Subtree, parent: int, found: Availability, cells: _Cells, levels: int) -> None:
+def _append(
+    tree: Tree, job: Subtree, parent: int, availability: Availability, cells: _Cells, levels: int
+) -> None:
     place, n = job.place, len(cells.index)
     at = _coordinates(job, cells)
-    overrides = _overrides(found, cells, place)
+    overrides = _overrides(availability, cells, place)
     error = (
         np.array(
             [
@@ -140,8 +142,8 @@ def _append(tree: Tree, job: Subtree, parent: int, found: Availability, cells: _
         _volumes(tree, job.scheme, place, at, overrides),
         np.full(n, place.matrix),
         np.full(n, place.number),
-        _contents(tree, job, found, cells, at),
-        jobs=_below(job, found, cells, at, levels),
+        _contents(tree, job, availability, cells, at),
+        jobs=_below(job, availability, cells, at, levels),
     )
     tree.append(rows)
 
@@ -163,9 +165,9 @@ def _coordinates(job: Subtree, cells: _Cells) -> NDArray[np.int64]:
     return at
 
 
-def _overrides(found: Availability, cells: _Cells, place: Place) -> list[metadata.Overrides]:
+def _overrides(availability: Availability, cells: _Cells, place: Place) -> list[metadata.Overrides]:
     """Read the metadata of each tile; empty without metadata."""
-    node, tables = found.node, found.node.get("propertyTables")
+    node, tables = availability.node, availability.node.get("propertyTables")
     holder = node
     if (extensions := node.get("extensions")) is not None and "3DTILES_metadata" in extensions:
         holder = extensions.need("3DTILES_metadata")
@@ -174,11 +176,11 @@ def _overrides(found: Availability, cells: _Cells, place: Place) -> list[metadat
     if tables is None or which is None:
         return []
     values, count = metadata.read_table(
-        node, found.views, place.document.schema, tables, which.index(1 << 20)
+        node, availability.views, place.document.schema, tables, which.index(1 << 20)
     )
     if not values:
         return []
-    ranks = found.tiles.ranks(cells.index)
+    ranks = availability.tiles.ranks(cells.index)
     if ranks.max() >= count:
         raise which.error(f"its table has {count:,} rows, fewer than available tiles")
     return [metadata.of_row(values, int(rank), which) for rank in ranks]
@@ -248,7 +250,7 @@ def _contents(
 
 
 def _below(
-    job: Subtree, found: Availability, cells: _Cells, at: NDArray[np.int64], levels: int
+    job: Subtree, availability: Availability, cells: _Cells, at: NDArray[np.int64], levels: int
 ) -> dict[int, list[Subtree]]:
     """List child subtrees, by tile of the last level."""
     scheme = job.scheme
@@ -256,7 +258,7 @@ def _below(
         return {}
     last = np.flatnonzero(cells.level == levels - 1)
     child = cells.morton[last, None] * scheme.branches + np.arange(scheme.branches)
-    there = found.children.at(child.ravel()).reshape(child.shape)
+    there = availability.children.at(child.ravel()).reshape(child.shape)
     jobs: dict[int, list[Subtree]] = {}
     for row, mask in zip(last, there, strict=True):
         level, x, y, z = map(int, at[row])

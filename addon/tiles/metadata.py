@@ -106,29 +106,29 @@ def of_tile(tile: Node, schema: Node | None) -> Overrides:
     if node is None or schema is None or (name := node.get("class")) is None:
         return Overrides()
     values = node.get("properties")
-    found: dict[str, NDArray[np.float64]] = {}
+    numbers_of: dict[str, NDArray[np.float64]] = {}
     for identity, each in properties(schema, name.text()).items():
         value = values.get(identity) if values is not None else None
         if value is not None:
             numbers = [value.number()] if each.count == 1 else value.numbers(each.count)
-            found[each.semantic] = real(np.array([numbers]), each, {}, value)
-    return of_row(found, 0, node)
+            numbers_of[each.semantic] = real(np.array([numbers]), each, {}, value)
+    return of_row(numbers_of, 0, node)
 
 
-def real(raw: NDArray[Any], found: Property, table: dict[str, Any], node: Node) -> NDArray[np.float64]:
+def real(raw: NDArray[Any], definition: Property, table: dict[str, Any], node: Node) -> NDArray[np.float64]:
     """Convert values of a property (n, count): normalised integers, then scale and offset."""
     values = raw.astype(np.float64)
-    if found.normalized and raw.dtype.kind in "iu":
+    if definition.normalized and raw.dtype.kind in "iu":
         values = np.maximum(values / np.iinfo(raw.dtype).max, -1.0)
     for key, join in (("scale", np.multiply), ("offset", np.add)):
-        extra = table.get(key, getattr(found, key))
+        extra = table.get(key, getattr(definition, key))
         if extra is not None:
             try:
                 values = join(values, np.ravel(np.array(extra, float)))
             except ValueError as error:
                 raise node.error(f"{key} does not fit the property") from error
     if not np.isfinite(values).all():
-        raise node.error(f"{found.semantic} has a number that is not finite")
+        raise node.error(f"{definition.semantic} has a number that is not finite")
     return values
 
 
@@ -166,7 +166,7 @@ def read_table(
     table = every[number]
     count = table.need("count").index(1 << 40)
     columns = table.get("properties")
-    found: dict[str, NDArray[np.float64]] = {}
+    values_of: dict[str, NDArray[np.float64]] = {}
     for identity, each in properties(schema, table.need("class").text()).items():
         node = columns.get(identity) if columns is not None else None
         if node is None:
@@ -177,5 +177,5 @@ def read_table(
         if len(buffers[view]) < need:
             raise node.error(f"needs {need:,} bytes, its buffer view has {len(buffers[view]):,}")
         raw = np.frombuffer(buffers[view], dtype, count * each.count).reshape(count, each.count)
-        found[each.semantic] = real(raw, each, node.object(), node)
-    return found, count
+        values_of[each.semantic] = real(raw, each, node.object(), node)
+    return values_of, count

@@ -52,13 +52,13 @@ def users_items() -> list[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]]:
     keymap = config.keymaps.get(_KEYMAP) if config is not None else None
     if keymap is None:
         return []
-    found = []
+    items = []
     for operator, menu, *_ in SHORTCUTS:
         for item in keymap.keymap_items:
             if item.idname == operator and (not menu or item.properties.name == menu):
-                found.append((keymap, item))
+                items.append((keymap, item))
                 break
-    return found
+    return items
 
 
 def key_of(operator: str) -> str:

@@ -95,13 +95,13 @@ def _code(lines: list[str]) -> str:
 
 def _table(lines: list[str], folder: Path) -> str:
     rows = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip().strip("|"))] for line in lines]
-    made = []
+    markup = []
     for number, row in enumerate(rows):
         if number == 1:  # dashes below the head
             continue
         tag = "th" if number == 0 else "td"
-        made.append(f"<tr>{''.join(f'<{tag}>{_inline(cell, folder)}</{tag}>' for cell in row)}</tr>")
-    return f"<table>{''.join(made)}</table>\n"
+        markup.append(f"<tr>{''.join(f'<{tag}>{_inline(cell, folder)}</{tag}>' for cell in row)}</tr>")
+    return f"<table>{''.join(markup)}</table>\n"
 
 
 def _list(lines: list[str], folder: Path) -> str:
@@ -120,13 +120,13 @@ def _inline(text: str, folder: Path) -> str:
     parts = re.split(r"(`[^`]+`)", text)
     codes = {f"\0{number}\0": part for number, part in enumerate(parts) if number % 2}
     plain = "".join(f"\0{number}\0" if number % 2 else part for number, part in enumerate(parts))
-    made = html.escape(plain.replace("\\|", "|"), quote=False)
-    made = _LINK.sub(lambda found: _link(found, folder), made)
-    made = re.sub(r"\*\*(.+?)\*\*", r"<b>\1</b>", made)
-    made = re.sub(r"\*([^*]+)\*", r"<i>\1</i>", made)
+    html_text = html.escape(plain.replace("\\|", "|"), quote=False)
+    html_text = _LINK.sub(lambda found: _link(found, folder), html_text)
+    html_text = re.sub(r"\*\*(.+?)\*\*", r"<b>\1</b>", html_text)
+    html_text = re.sub(r"\*([^*]+)\*", r"<i>\1</i>", html_text)
     for mark, code in codes.items():
-        made = made.replace(mark, f"<code>{html.escape(code.strip('`'))}</code>")
-    return made
+        html_text = html_text.replace(mark, f"<code>{html.escape(code.strip('`'))}</code>")
+    return html_text
 
 
 def _link(found: re.Match[str], folder: Path) -> str:

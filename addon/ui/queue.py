@@ -92,7 +92,7 @@ class Item:
 
     def _work(self, asked: RenderRequest, stop: worker.Stop) -> None:
         try:
-            made = self.render(
+            picture_count = self.render(
                 self.choice,
                 self.blend,
                 self.scene,
@@ -106,7 +106,7 @@ class Item:
         except BaseException as error:
             self.state, self.message = FAILED, job.describe_error(error)
         else:
-            self.state, self.message = DONE, f"{made} pictures in {asked.out}"
+            self.state, self.message = DONE, f"{picture_count} pictures in {asked.out}"
 
     def _progress(self, done: int, total: int, what: str = "", note: str = "") -> None:
         if what != self.what or done == 0:

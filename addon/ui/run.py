@@ -89,13 +89,13 @@ def inspect_run(uid: int) -> Steps:
     settings.problem = ""
     folder = Path(bpy.path.abspath(settings.run))
     try:
-        after, (found, images) = yield InThread(
+        after, (facts, images) = yield InThread(
             "reading the run", lambda **_: (feature_panels.look(folder), collect_facts(folder))
         )
-        owned.scene(uid).firetwin.facts = json.dumps(found)
+        owned.scene(uid).firetwin.facts = json.dumps(facts)
         for start in after:
             start()
-        auto_framing.apply_framing(owned.scene(uid).firetwin, found["fits"])
+        auto_framing.apply_framing(owned.scene(uid).firetwin, facts["fits"])
         maps.show(owned.scene(uid).firetwin.run, images)
         yield from auto_framing.reframe(uid)
         chosen = choice.from_panel(owned.scene(uid).firetwin)
@@ -107,7 +107,7 @@ def inspect_run(uid: int) -> Steps:
     except Exception as error:
         owned.scene(uid).firetwin.problem = job.describe_error(error)
         raise
-    return f"Read {found['name']}"
+    return f"Read {facts['name']}"
 
 
 def collect_facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
@@ -133,17 +133,17 @@ def collect_facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
     return told, thumbnails.draw(run)
 
 
-def _burned_areas(found: dict[str, Any], unit: str) -> list[tuple[str, str, str]]:
+def _burned_areas(facts: dict[str, Any], unit: str) -> list[tuple[str, str, str]]:
     """Return burned areas: date, reported area, and the run's area with its difference."""
     from ..run import info, times
 
     return [
         (
-            times.text(datetime.fromisoformat(each["time"]), found["zone"]),
+            times.text(datetime.fromisoformat(each["time"]), facts["zone"]),
             f"{info.format_area(each['reported'], unit)} {unit}",
             f"{info.format_area(each['run'], unit)} {unit} ({round(each['difference'], 3) + 0.0:+.1%})",
         )
-        for each in found["reported"]
+        for each in facts["reported"]
         if each["run"] is not None
     ]
 

@@ -98,7 +98,7 @@ def put(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) -
             keys.put(group, part, value)
 
 
-def take(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) -> Any:
+def take(group: bpy.types.PropertyGroup, parts: tuple[Field, ...], values: Any) -> Any:
     """Return the dataclass with the values that a group shows.
 
     Raises
@@ -107,7 +107,7 @@ def take(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) 
         A typed text is invalid.
     """
     taken: dict[str, Any] = {}
-    for part in known:
+    for part in parts:
         if part.tables:
             taken[part.name] = from_text(part, getattr(group, part.name))
         elif part.table:

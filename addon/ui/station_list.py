@@ -78,19 +78,19 @@ def detail(panel: bpy.types.PropertyGroup) -> Detail | None:
 def refresh(panel: bpy.types.PropertyGroup) -> bool:
     """Update the list; return True while files are still being read."""
     wanted = station_data.key(panel)
-    found = None if wanted is None else station_data.get(wanted)
-    if wanted is None or not isinstance(found, Loaded):
-        status = NO_FILE if wanted is None else READING if found is None else str(found)
+    loaded = None if wanted is None else station_data.get(wanted)
+    if wanted is None or not isinstance(loaded, Loaded):
+        status = NO_FILE if wanted is None else READING if loaded is None else str(loaded)
         _publish(ListState(wanted, status=status))
-        return wanted is not None and found is None
+        return wanted is not None and loaded is None
     try:
-        asked = station_filter.query(panel, found)
+        asked = station_filter.query(panel, loaded)
         if (wanted, asked) != (_shown.wanted, _shown.query):
-            _publish(_survey(wanted, found, asked))
+            _publish(_survey(wanted, loaded, asked))
         else:
             _publish(_shown)
     except Error as error:
-        _publish(ListState(wanted, None, found, status=str(error)))
+        _publish(ListState(wanted, None, loaded, status=str(error)))
     describe(panel)
     return False
 
@@ -127,13 +127,13 @@ def clear() -> None:
 
 
 def _survey(wanted: Key, loaded: Loaded, asked: Query) -> ListState:
-    found = listing.survey(loaded.station_file, asked)
-    status = count(len(found.rows), "station")
-    out = ", ".join(f"{number:,} {reason}" for reason, number in found.left_out.items())
+    survey = listing.survey(loaded.station_file, asked)
+    status = count(len(survey.rows), "station")
+    out = ", ".join(f"{number:,} {reason}" for reason, number in survey.left_out.items())
     status += f"; left out: {out}" if out else ""
     status += f". {loaded.problem}" if loaded.problem else ""
-    places = {listing.station_key(each.station): k for k, each in enumerate(found.rows)}
-    return ListState(wanted, asked, loaded, found.rows, places, status)
+    places = {listing.station_key(each.station): k for k, each in enumerate(survey.rows)}
+    return ListState(wanted, asked, loaded, survey.rows, places, status)
 
 
 def _publish(now: ListState) -> None:

@@ -98,17 +98,17 @@ def _draw_filters(column: bpy.types.UILayout, panel: bpy.types.PropertyGroup) ->
     column.prop(chosen, "available")
 
 
-def _draw_selected(context: bpy.types.Context, box: bpy.types.UILayout, found: station_list.Detail) -> None:
+def _draw_selected(context: bpy.types.Context, box: bpy.types.UILayout, detail: station_list.Detail) -> None:
     """Draw the details of the selected station, and links to it."""
-    box.label(text=found.station.name)
-    for label, text in found.lines:
+    box.label(text=detail.station.name)
+    for label, text in detail.lines:
         if label:
             line = box.column(align=True).split(factor=0.3)
             line.label(text=label)
             draw_paragraph(context, line.column(align=True), text)
         else:
             box.label(text=text, icon="EXPERIMENTAL")
-    row, at = box.row(align=True), (found.station.latitude, found.station.longitude)
+    row, at = box.row(align=True), (detail.station.latitude, detail.station.longitude)
     go = row.operator(go_to.FIRETWIN_OT_go.bl_idname, text="Go to place", icon="VIEWZOOM")
     go.text, go.smooth = f"{at[0]:.6f} {at[1]:.6f}", context.scene.firetwin.go_smoothly
     row.operator("wm.url_open", text="Open in web map", icon="URL").url = web_map_address(*at)

@@ -70,18 +70,18 @@ def steps(context: bpy.types.Context, only_boxes: bool) -> Steps:
     from ..scene.tiles import preview
 
     uid, chosen = context.scene.session_uid, choice.from_panel(context.scene.firetwin)
-    found = yield InThread("reading the tilesets", functools.partial(bounding_boxes.run, chosen))
+    boxes = yield InThread("reading the tilesets", functools.partial(bounding_boxes.run, chosen))
     yield "drawing the boxes"
     new = not owned.has_data(owned.scene(uid))
     uid, _ = target_scene.prepare(owned.scene(uid), part=True)
-    scene, corners = owned.scene(uid), preview.join([each["corners"] for each in found])
+    scene, corners = owned.scene(uid), preview.join([each["corners"] for each in boxes])
     preview.show_boxes(owned.stage(scene), corners)
     if new and len(corners):
         view.look_at_points(scene, corners.reshape(-1, 3))
-    tile_facts.remember_boxes(scene.firetwin, found)
-    count = sum(each["tiles"] for each in found)
+    tile_facts.remember_boxes(scene.firetwin, boxes)
+    count = sum(each["tiles"] for each in boxes)
     if only_boxes:
-        return f"{count:,} tiles in the root documents of {len(found)} tilesets"
+        return f"{count:,} tiles in the root documents of {len(boxes)} tilesets"
     cut = yield InThread("fetching coarse tiles", functools.partial(_cut, chosen, coarse=True))
     yield "showing coarse tiles"
     scene = owned.scene(uid)

@@ -121,19 +121,19 @@ class FIRETWIN_OT_allocate(Working, bpy.types.Operator):
             asked,
             panel.allocation_budget,
         )
-        shot, found = yield InThread("allocating resources", work)
+        shot, result = yield InThread("allocating resources", work)
         yield "drawing the control line"
-        features = found.pop("map")["features"]
+        features = result.pop("map")["features"]
         scene = owned.scene(uid)
-        scene.firetwin.allocation = json.dumps(found | {"files": files})
+        scene.firetwin.allocation = json.dumps(result | {"files": files})
         if owned.has_data(scene):
             control_line.build(shot, owned.stage(scene), features)
         else:
             yield Message("Build the scene, then suggest again, to see the control line", "WARNING")
-        for reason in found["reasons"]:
+        for reason in result["reasons"]:
             yield Message(f"No allocation: {reason}", "WARNING")
-        held = sum(each["contained_at_hour"] is not None for each in found["divisions"])
-        fronts = sum(any(each["perimeter"]) for each in found["divisions"])
+        held = sum(each["contained_at_hour"] is not None for each in result["divisions"])
+        fronts = sum(any(each["perimeter"]) for each in result["divisions"])
         return f"{held} of {fronts} divisions with fire can be held"
 
 

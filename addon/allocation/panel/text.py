@@ -43,46 +43,46 @@ def describe(text: str) -> AllocationText:
     return AllocationText(found["label"], (run, file), tuple(_head(found)), tuple(blocks))
 
 
-def _head(found: dict[str, Any]) -> Iterator[str]:
-    yield f"Ordered {_time(found, 0.0)}, for {found['hours'][-1]:g} h"
-    for reason in found["reasons"]:
+def _head(result: dict[str, Any]) -> Iterator[str]:
+    yield f"Ordered {_time(result, 0.0)}, for {result['hours'][-1]:g} h"
+    for reason in result["reasons"]:
         yield f"No allocation: {reason}"
-    if found["sums"]:
-        currency = found["units"]["cost"]
-        yield f"Cost {found['sums']['cost']:,.0f} {currency}".rstrip()
+    if result["sums"]:
+        currency = result["units"]["cost"]
+        yield f"Cost {result['sums']['cost']:,.0f} {currency}".rstrip()
 
 
-def _division(division: dict[str, Any], found: dict[str, Any]) -> Block:
+def _division(division: dict[str, Any], result: dict[str, Any]) -> Block:
     name, front = division["name"], division["perimeter"]
     if not any(front):
         return Block(name, f"Division {name}: no fire", "BLANK1", ())
-    if found["sums"] is None:
-        last = f"Front {front[-1]:,.0f} m at hour {found['hours'][-1]:g}"
+    if result["sums"] is None:
+        last = f"Front {front[-1]:,.0f} m at hour {result['hours'][-1]:g}"
         return Block(name, f"Division {name}: no allocation", "ERROR", (last,))
     hour = division["contained_at_hour"]
     if hour is None:
-        lines = [*_resources(division["resources"], found), *_plan(division.get("nearest_plan"), found)]
+        lines = [*_resources(division["resources"], result), *_plan(division.get("nearest_plan"), result)]
         return Block(name, f"Division {name}: cannot be held", "ERROR", tuple(lines))
-    there = front[found["hours"].index(hour)]
+    there = front[result["hours"].index(hour)]
     lines = [
-        f"Contained {_time(found, hour)}, after {hour:g} h",
+        f"Contained {_time(result, hour)}, after {hour:g} h",
         f"Line {division['line']:,.0f} m, front {there:,.0f} m",
-        *_resources(division["resources"], found),
+        *_resources(division["resources"], result),
     ]
     return Block(name, f"Division {name}: held", "CHECKMARK", tuple(lines))
 
 
-def _plan(plan: dict[str, Any] | None, found: dict[str, Any]) -> Iterator[str]:
+def _plan(plan: dict[str, Any] | None, result: dict[str, Any]) -> Iterator[str]:
     """Describe the nearest feasible plan of a division that cannot be held."""
     if plan is None:
         return
     part = 100.0 * plan["line"] / plan["front"] if plan["front"] else 100.0
     yield f"Nearest feasible plan: {plan['line']:,.0f} m of {plan['front']:,.0f} m ({part:.0f} %)"
-    yield f"by {_time(found, plan['hour'])}; {plan['missing']:,.0f} m are missing"
+    yield f"by {_time(result, plan['hour'])}; {plan['missing']:,.0f} m are missing"
     hour = plan["hour_of_all"]
-    contain = "would not contain it" if hour is None else f"would contain it by {_time(found, hour)}"
+    contain = "would not contain it" if hour is None else f"would contain it by {_time(result, hour)}"
     yield f"All available resources together {contain}"
-    yield from _resources(plan["resources"], found)
+    yield from _resources(plan["resources"], result)
 
 
 def _resources(sent: list[dict[str, Any]], found: dict[str, Any]) -> Iterator[str]:

@@ -303,18 +303,18 @@ class FIRETWIN_PT_farm(SidebarPanel, bpy.types.Panel):
             _draw_status(context, layout, watch.last_status(_output_folder(panel)))
 
 
-def _draw_status(context: bpy.types.Context, layout: bpy.types.UILayout, found: Status | str | None) -> None:
+def _draw_status(context: bpy.types.Context, layout: bpy.types.UILayout, state: Status | str | None) -> None:
     """Draw the last status of the job: tasks, pictures, remaining time and errors."""
-    if found is None:
+    if state is None:
         return
     box = layout.box().column(align=True)
-    if isinstance(found, str):
-        draw_paragraph(context, box, found, "ERROR")
+    if isinstance(state, str):
+        draw_paragraph(context, box, state, "ERROR")
         return
-    box.progress(factor=found.finished / max(found.pictures, 1), text=status.rows(found)[1][1])
-    for label, text in status.rows(found):
+    box.progress(factor=state.finished / max(state.pictures, 1), text=status.rows(state)[1][1])
+    for label, text in status.rows(state):
         labelled_row(box, keys.sentence(label)).label(text=text)
-    for line in status.failures(found):
+    for line in status.failures(state):
         draw_paragraph(context, box, keys.sentence(line), "ERROR")
 
 

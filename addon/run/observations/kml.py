@@ -53,17 +53,19 @@ def unpack_kmz(path: Path) -> bytes:
 
 def _placemarks(path: Path, folder: Element, inherited: dict[str, str]) -> Iterator[Feature]:
     """Yield placemarks of a folder and its subfolders; a folder's time applies to those without one."""
-    known = inherited | _time(folder)
+    inherited_values = inherited | _time(folder)
     if _tag(folder) == "Folder" and (called := _name(folder)):
-        known["folder"] = f"{called}/{known['folder']}" if "folder" in known else called
+        inherited_values["folder"] = (
+            f"{called}/{inherited_values['folder']}" if "folder" in inherited_values else called
+        )
     for child in folder:
         if _tag(child) == "Placemark":
             name = _name(child)
             place = f'placemark "{name}"' if name else "a placemark"
-            said = known | ({"name": name} if name else {}) | _time(child) | _data(child)
+            said = inherited_values | ({"name": name} if name else {}) | _time(child) | _data(child)
             yield Feature(tuple(_polygons(path, place, child)), said, place, _points(path, place, child))
         elif _tag(child) in ("Document", "Folder"):
-            yield from _placemarks(path, child, known)
+            yield from _placemarks(path, child, inherited_values)
 
 
 def _name(element: Element) -> str:

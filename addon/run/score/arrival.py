@@ -36,17 +36,17 @@ def within(
     distance to its nearer end. Cells of the first perimeter have no earlier bound and are excluded.
     """
     errors, run_never = [], 0
-    known = masks[0].copy()
+    seen = masks[0].copy()
     for mask, early, late in zip(masks[1:], moments[:-1], moments[1:], strict=True):
-        new = mask & ~known
-        known |= mask
+        new = mask & ~seen
+        seen |= mask
         time = run[new]
         run_never += int(np.isnan(time).sum())
         time = time[~np.isnan(time)]
         errors.append(np.where(time < early, time - early, np.maximum(time - late, 0.0)))
     return (
         _statistics(np.concatenate(errors) if errors else np.empty(0))
-        | {"run_only": int((~np.isnan(run) & ~known & (run <= moments[-1])).sum()), "seen_only": run_never}
+        | {"run_only": int((~np.isnan(run) & ~seen & (run <= moments[-1])).sum()), "seen_only": run_never}
         | {"observed": "between the moments of two perimeters; 0 where the run falls there too"}
     )
 

@@ -133,14 +133,14 @@ def _step_frames(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Step through frames to get positions (frames, 3) and quaternions (frames, 4) of a rigged object."""
     before, layer = (scene.frame_current, scene.frame_subframe), scene.view_layers[0]
-    found = []
+    poses = []
     try:
         for frame in range(1, frames + 1):
             scene.frame_set(frame)
-            found.append(matrix_pose(obj.evaluated_get(layer.depsgraph).matrix_world))
+            poses.append(matrix_pose(obj.evaluated_get(layer.depsgraph).matrix_world))
     finally:
         scene.frame_set(before[0], subframe=before[1])
-    place, turn = (np.array(column) for column in zip(*found, strict=True))
+    place, turn = (np.array(column) for column in zip(*poses, strict=True))
     return place, quaternions(turn)
 
 

@@ -44,7 +44,7 @@ _WIDER = 12.0  # lower relative to trees: bushes and logs; by FLIP from among th
 def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Object]:
     """Build "Firetwin Trees", "Firetwin Understorey" and "Firetwin Grass", each if any of it is visible."""
     collection = stage.part("Forest")
-    made, below, plants = [], understorey.grow(shot), {}
+    objects, below, plants = [], understorey.grow(shot), {}
     if grown is not None:
         points = algorithm2(shot) if shot.settings.forest.density == "paper" else _stand(shot, grown)
         plants["Trees"] = levelled(shot, points)
@@ -53,11 +53,11 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Objec
     if plants:
         library = tree_models(shot, stage, set().union(*map(drawn, plants.values())))
     for name, points in plants.items():
-        made.append(_instances(shot, stage, collection, name, points, library))
+        objects.append(_instances(shot, stage, collection, name, points, library))
     if shot.settings.forest.grass:
         library = grass_models(shot, stage)
-        made.append(_instances(shot, stage, collection, "Grass", _grass(shot), library))
-    return made
+        objects.append(_instances(shot, stage, collection, "Grass", _grass(shot), library))
+    return objects
 
 
 def algorithm2(shot: Shot) -> dict[str, NDArray]:

@@ -42,16 +42,16 @@ def shrubs(shot: Shot) -> Array:
     return share
 
 
-def _by_load(ground: Terrain, here: biomes.Here) -> Array:
+def _by_load(ground: Terrain, here: biomes.ShotBiome) -> Array:
     low, high = here.biome.shrub_load
     return _beside(here, 0.85 * noise.smoothstep(low, high, ground.fields.surface_fuel))
 
 
-def _beside(here: biomes.Here, shrub: Array) -> Array:
+def _beside(here: biomes.ShotBiome, shrub: Array) -> Array:
     return np.maximum(shrub, here.biome.shrub_cover)
 
 
-def _by_category(shot: Shot, here: biomes.Here) -> Array:
+def _by_category(shot: Shot, here: biomes.ShotBiome) -> Array:
     """Shrub cover 0..1 from the run's fuel category; NaN elsewhere, as on the apron."""
     number = on_ground(shot, shot.run.fuel_rows(fuel_category.FIELD, 0, len(shot.run.fuel_latitude)))
     kind = fuel_category.kinds(number)

@@ -116,7 +116,7 @@ class _Stems(NamedTuple):
 
 def _planted(shot: Shot, plots: list[Plot]) -> _Stems:
     """Stems of all plots."""
-    found = [
+    planted = [
         core.stand(
             each.canopy_fuel,
             each.latitude,
@@ -131,7 +131,9 @@ def _planted(shot: Shot, plots: list[Plot]) -> _Stems:
     ]
     whole, number = np.empty(0, np.uint8), np.empty(0, np.float32)
     nothing = _Stems(np.empty((0, 3)), whole, whole, number, number, number, np.empty(0, np.int64))
-    fields = ([getattr(nothing, name), *(getattr(stems, name) for stems in found)] for name in _Stems._fields)
+    fields = (
+        [getattr(nothing, name), *(getattr(stems, name) for stems in planted)] for name in _Stems._fields
+    )
     return _Stems(*(np.concatenate(parts) for parts in fields))
 
 

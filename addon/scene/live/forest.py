@@ -50,13 +50,15 @@ def build(
     if not len(kept):
         return []
     look = _material(shot, stage, shade)
-    made = []
+    objects = []
     for number, tile in enumerate(_tiles(grown.position[kept])):
         data = _mesh(shot, grown, kept[tile], near[kept[tile]], number)
         data.materials.append(look)
-        made.append(owned.add(collection, f"Live Trees {number:02d}", data))
-        made[-1].visible_shadow = False  # of each lamp of the flames, EEVEE draws six pictures of all trees
-    return made
+        objects.append(owned.add(collection, f"Live Trees {number:02d}", data))
+        objects[
+            -1
+        ].visible_shadow = False  # of each lamp of the flames, EEVEE draws six pictures of all trees
+    return objects
 
 
 def grow(shot: Shot) -> stand.Stand | None:

@@ -52,7 +52,7 @@ def shape(shot: Shot, budget: int) -> tuple[NDArray[np.float64], NDArray[np.floa
     away, part = viewers.distance(shot, wanted.place), _FIRST
     while True:
         tolerance = np.clip(part * away, _FINEST, _COARSEST * part / _FIRST).astype(np.float32)
-        made = terrain.mesh(
+        mesh = terrain.mesh(
             wanted.place,
             tolerance,
             wanted.fine,
@@ -61,9 +61,9 @@ def shape(shot: Shot, budget: int) -> tuple[NDArray[np.float64], NDArray[np.floa
             ground.near_radius,
             ground.fields.margin,
         )
-        if len(made[2]) <= budget or part > 1.0:
-            return made
-        part *= max(_MORE, np.sqrt(len(made[2]) / budget))
+        if len(mesh[2]) <= budget or part > 1.0:
+            return mesh
+        part *= max(_MORE, np.sqrt(len(mesh[2]) / budget))
 
 
 def _material(shot: Shot, stage: Stage, shade: Shade | None) -> bpy.types.Material:

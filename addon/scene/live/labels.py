@@ -101,7 +101,7 @@ def _mesh(kinds: list[_Labels]) -> bpy.types.Mesh:
 
 def _material(shot: Shot) -> bpy.types.Material:
     """Build "Firetwin Live Labels": ink of constant brightness, and the move of each vertex."""
-    made, tree = nodes.material(f"Firetwin {switch.LABELS}", material.COLOURS["Letters"])
+    result, tree = nodes.material(f"Firetwin {switch.LABELS}", material.COLOURS["Letters"])
     place = tree.attribute("place", output="Vector")
     across, up, front = tree.separate(tree.attribute("letter", output="Vector"))
     size, near, far = tree.separate(tree.attribute("seen", output="Vector"))
@@ -133,7 +133,7 @@ def _material(shot: Shot) -> bpy.types.Material:
     )
     ink = tree.emission(tree.attribute("ink", output="Color"), bright)
     tree.surface(ink, moved)
-    made.displacement_method = "DISPLACEMENT"
-    made.max_vertex_displacement = _FAR
-    made.cycles.emission_sampling = "NONE"
-    return made
+    result.displacement_method = "DISPLACEMENT"
+    result.max_vertex_displacement = _FAR
+    result.cycles.emission_sampling = "NONE"
+    return result

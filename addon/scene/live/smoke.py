@@ -59,16 +59,16 @@ def bake(shot: Shot, stage: Stage, progress: Progress, tell: MessageCallback) ->
     """Solve and march the smoke; None if there is none, or if its method cannot be marched."""
     if not shot.settings.smoke.enabled:
         return None
-    found = smoke_grid.source(shot)
-    if not found.marched or illumination.material(stage) is None:
-        tell(f"the live scene has no smoke: smoke.method {found.name} is not solved; choose flow")
+    source = smoke_grid.source(shot)
+    if not source.marched or illumination.material(stage) is None:
+        tell(f"the live scene has no smoke: smoke.method {source.name} is not solved; choose flow")
         return None
     count = shot.frames.count
     frames = sorted({round(frame) for frame in np.linspace(1, count, min(MOMENTS, count))})
     now, scene = stage.scene.frame_current, stage.scene
-    with found.in_use():
-        found.prepare(frames, progress)
-        grid = smoke_grid.make(found, frames, viewers.target(shot))
+    with source.in_use():
+        source.prepare(frames, progress)
+        grid = smoke_grid.make(source, frames, viewers.target(shot))
         if grid is None:
             return None
         slabs: list[list[smoke_grid.Slabs]] = [[], [], []]
@@ -77,7 +77,7 @@ def bake(shot: Shot, stage: Stage, progress: Progress, tell: MessageCallback) ->
         places = _ground_places(shot, low, high)
         for done, frame in enumerate(frames):
             progress(done, len(frames), "live smoke")
-            layers = list(found.bricks(frame))
+            layers = list(source.bricks(frame))
             scene.frame_set(frame)
             light = illumination.visible_light(stage, everywhere=True)
             for of_axis, each in zip(slabs, smoke_grid.bake(grid, layers, light), strict=True):
@@ -127,7 +127,7 @@ def shade(smoke: Smoke) -> Shade:
 
 def build(stage: Stage, collection: bpy.types.Collection, smoke: Smoke) -> list[bpy.types.Object]:
     """Build "Firetwin Live Smoke X 00" and so on: the sheets."""
-    made = []
+    objects = []
     for axis in range(3):
         light = np.stack([each.light for each in smoke.slabs[axis]])
         opacity = np.stack([each.opacity for each in smoke.slabs[axis]])
@@ -141,8 +141,8 @@ def build(stage: Stage, collection: bpy.types.Collection, smoke: Smoke) -> list[
             obj = owned.add(collection, f"Live Smoke {_AXES[axis]} {slab:02d}", data)
             _centre(obj)
             obj.visible_shadow = False
-            made.append(obj)
-    return made
+            objects.append(obj)
+    return objects
 
 
 def _sheet(

@@ -54,13 +54,13 @@ def source(shot: Shot) -> Source:
     return sources.select(shot.with_settings(replace(shot.settings, smoke=complete)))
 
 
-def make(found: Source, frames: list[int], target: Array) -> Grid | None:
+def make(source: Source, frames: list[int], target: Array) -> Grid | None:
     """Return the grid around the smoke of these frames; None without smoke."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    for domain in found.domains:
+    for domain in source.domains:
         heights = domain.heights()
         for frame in frames:
-            (west, south), smoke = snapshots.load_smoke(domain.snapshot_path(found.snapshot(frame)))
+            (west, south), smoke = snapshots.load_smoke(domain.snapshot_path(source.snapshot(frame)))
             k, j, i = np.nonzero(smoke > _SEEN)
             if not len(k):
                 continue
@@ -71,7 +71,7 @@ def make(found: Source, frames: list[int], target: Array) -> Grid | None:
                 high[axis] = max(high[axis], at.max() + 2.0 * size)
     if not np.isfinite(low).all():
         return None
-    low[2] = max(low[2], min(float(domain.ground.min()) for domain in found.domains) - 10.0)
+    low[2] = max(low[2], min(float(domain.ground.min()) for domain in source.domains) - 10.0)
 
     def edges(axis: int, count: int) -> Array:
         """Edges whose spacing grows with the distance from the target."""

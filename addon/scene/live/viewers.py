@@ -13,13 +13,13 @@ _NEAREST = 20.0  # m
 
 def places(shot: Shot) -> NDArray[np.float64]:
     """Return places (n, 3), m: of cameras near the ground, and of their targets."""
-    found = [np.zeros((0, 3))]
+    points = [np.zeros((0, 3))]
     for path in shot.perspective_paths:
         frames = np.linspace(0, len(path.position) - 1, _MOMENTS).round().astype(int)
-        found += [path.position[frames], path.target[frames]]
-    if len(found) == 1:
-        found.append(np.array([[0.0, 0.0, float(np.nanmax(shot.ground.fields.elevation))]]))
-    return np.concatenate(found)
+        points += [path.position[frames], path.target[frames]]
+    if len(points) == 1:
+        points.append(np.array([[0.0, 0.0, float(np.nanmax(shot.ground.fields.elevation))]]))
+    return np.concatenate(points)
 
 
 def distance(shot: Shot, positions: NDArray[np.floating]) -> NDArray[np.float64]:

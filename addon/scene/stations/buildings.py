@@ -32,18 +32,18 @@ def build(
     """Build "Firetwin Halls" at the stations; None without stations."""
     rings = [hall(shot, each) if each.footprint is None else _metres(shot, each.footprint) for each in shown]
     outlines = [Footprint(ring, (), _HIGH) for ring in rings]
-    made, night = Blocks(), windows.shines(shot)
+    blocks, night = Blocks(), windows.shines(shot)
     for sign, block in zip(
         shown, place_on_ground(outlines, lambda place: shot.ground.up(*place.T)), strict=True
     ):
-        made.add(block, _ROOF, _WALL)
+        blocks.add(block, _ROOF, _WALL)
         if night:
-            made.light(block, shot, _ON_DUTY)
+            blocks.light(block, shot, _ON_DUTY)
         if sign.footprint is None:
-            _gates(made, block.footprint.outer, block.roof - _HIGH)
-    if not made.corners:
+            _gates(blocks, block.footprint.outer, block.roof - _HIGH)
+    if not blocks.corners:
         return None
-    data = made.mesh("Firetwin Halls", shot, buildings.material(shot, stage, "Firetwin Halls"))
+    data = blocks.mesh("Firetwin Halls", shot, buildings.material(shot, stage, "Firetwin Halls"))
     return owned.add(collection, "Halls", data)
 
 
@@ -61,7 +61,7 @@ def _metres(shot: Shot, outline: Array) -> Array:
     return ring if area(ring) >= 0.0 else ring[::-1]
 
 
-def _gates(made: Blocks, ring: Array, floor: float) -> None:
+def _gates(blocks: Blocks, ring: Array, floor: float) -> None:
     """Append three gates on the south wall."""
     (left, south), right = ring[0], ring[1][0]
     for k in range(3):
@@ -70,4 +70,4 @@ def _gates(made: Blocks, ring: Array, floor: float) -> None:
             (middle + x * _GATE, south - _OUT, floor + z * _GATE_HIGH)
             for x, z in ((-0.5, 0.0), (0.5, 0.0), (0.5, 1.0), (-0.5, 1.0))
         ]
-        made.face(np.array(corners), _DOOR)
+        blocks.face(np.array(corners), _DOOR)

@@ -58,15 +58,15 @@ def forms(
     rows = facing.tiers(shot, position)
     small = max(_SMALL, lettering.legible_size(shot, 0.0) / size)
     lines = [fitting(full(sign), small, _HIGH / size) for sign in shown], [short(sign) for sign in shown]
-    made: tuple[list[list[Part]], list[list[Part]]] = ([], [])
+    shapes: tuple[list[list[Part]], list[list[Part]]] = ([], [])
     with lettering.typeface() as font:
-        for form, parts in zip(lines, made, strict=True):
+        for form, parts in zip(lines, shapes, strict=True):
             highest = max((plate_height(each, small) for each in form), default=0.0)
             tier = min(highest + _APART, _MOST / size)
             for sign, text, row in zip(shown, form, rows, strict=True):
                 low = _STEM / size + tier * int(row)
                 parts.append(plate(text, low, material.accent(sign.origin), font, small))
-    return made
+    return shapes
 
 
 def full(sign: Sign) -> list[tuple[str, bool]]:

@@ -101,17 +101,17 @@ def triangulate(outline: Rings) -> Array:
 
 def build(shot: Shot, stage: Stage, images: Mapping[str, bpy.types.Image]) -> bpy.types.Object | None:
     """Build "Firetwin Roofs" from the images of the ground's fields; None without footprints."""
-    made, night = Blocks(), windows.shines(shot)
+    blocks, night = Blocks(), windows.shines(shot)
     share = windows.share(shot) if night else 0.0
     for building in footprints.place_buildings(shot):
         number = building.footprint.number
         lot = float(noise.uniform([number], 20, shot.settings.seed)[0])
-        made.add(building, _ROOFS[int(lot * len(_ROOFS))], number=number + 1)
+        blocks.add(building, _ROOFS[int(lot * len(_ROOFS))], number=number + 1)
         if night:
-            made.light(building, shot, share, number + 1)
-    if not made.corners:
+            blocks.light(building, shot, share, number + 1)
+    if not blocks.corners:
         return None
-    data = made.mesh("Firetwin Roofs", shot, material(shot, stage, "Firetwin Roofs", images))
+    data = blocks.mesh("Firetwin Roofs", shot, material(shot, stage, "Firetwin Roofs", images))
     return owned.add(stage.part("Terrain"), "Roofs", data)
 
 

@@ -59,7 +59,7 @@ def create_images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]
     """
     ground = shot.ground
     size = block_size(ground.shape)
-    known = {
+    fields = {
         "canopy_fuel": _soften_edges(ground),
         "bare": ground.bare,
         "water": ground.water,
@@ -71,9 +71,9 @@ def create_images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]
         "heat": np.log(np.maximum(shot.front.intensity, _FAINTEST)),
         "load": ground.fields.surface_fuel,
     }
-    thin = {name: downsample(field, size) for name, field in known.items()}
+    thin = {name: downsample(field, size) for name, field in fields.items()}
     thin["stand"] = _stand_cover(shot, grown, size)
-    made = {}
+    images = {}
     if biomes.choose(shot).biome.open_land is not None:
         thin |= {
             "shrub": downsample(cover.shrubs(shot), size),
@@ -81,10 +81,10 @@ def create_images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]
         }
         thin["mapped"] = downsample(cover.mapped(shot), size)
     for image in dict.fromkeys(NAMES[name][0] for name in thin):
-        made[image] = float_image(
+        images[image] = float_image(
             image, [thin[name] for name, (holder, _) in NAMES.items() if holder == image and name in thin]
         )
-    return made
+    return images
 
 
 def texture_coordinates(
@@ -150,7 +150,7 @@ def _blur(field: NDArray[np.float32]) -> NDArray[np.float32]:
 class Fields:
     """Terrain fields as outputs of a material's nodes."""
 
-    def __init__(self, tree: nodes.Tree, made: dict[str, bpy.types.Image]) -> None:
+    def __init__(self, tree: nodes.Tree, images: dict[str, bpy.types.Image]) -> None:
         at = tree.attribute(GRID, output="Vector")
         self.beyond = tree.separate(at)[2]
         self._none = at  # fields without an image are not used
@@ -158,7 +158,7 @@ class Fields:
             name: tree.separate(
                 tree.output("ShaderNodeTexImage", {"Vector": at}, image=image, extension="EXTEND")
             )
-            for name, image in made.items()
+            for name, image in images.items()
         }
 
     def __getitem__(self, name: str) -> nodes.Value:

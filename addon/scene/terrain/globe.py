@@ -150,11 +150,11 @@ def _triangles(rings: int, around: int) -> NDArray[np.int32]:
     """Create triangles between rings of points; the first two are a skirt, not joined to the rest."""
     at = np.arange(around)
     after = (at + 1) % around
-    found = []
+    triangles = []
     for ring in (0, *range(2, rings - 1)):
         low, high = ring * around, (ring + 1) * around
-        found += [
+        triangles += [
             np.stack([low + at, high + at, low + after], axis=-1),
             np.stack([low + after, high + at, high + after], axis=-1),
         ]
-    return np.concatenate(found).astype(np.int32)
+    return np.concatenate(triangles).astype(np.int32)

@@ -17,7 +17,7 @@ from ...shot.shot import Shot
 from ...shot.surface import orthophoto
 from .. import flame_gaps, haze
 from ..forest import biomes
-from ..forest.biomes import Here
+from ..forest.biomes import ShotBiome
 from . import (
     burn_scar,
     fields,
@@ -74,10 +74,10 @@ def _visible_shader(
     tree: nodes.Tree,
     shot: Shot,
     stage: Stage,
-    known: fields.Fields,
+    ground_fields: fields.Fields,
     lake: nodes.Value,
     photos: Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]],
-    biome: Here,
+    biome: ShotBiome,
     maps: Mapping[str, Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]],
     skin: str,
     globe: bpy.types.Image | None,
@@ -85,7 +85,7 @@ def _visible_shader(
     """Return the visible shader; shaders are mixed, not colours: Cycles skips shaders of weight 0."""
     outcrops = biome.biome.outcrops
     with tree.frame("Place and time"):
-        here = shading_inputs.gather(tree, known, shot, whole=False)
+        here = shading_inputs.gather(tree, ground_fields, shot, whole=False)
         bare = shading_inputs.bare_rock(tree, here, outcrops)
     with tree.frame("Rock"):
         rock = _rock_shader(tree, here, biome)
@@ -118,7 +118,7 @@ def _visible_shader(
         ground = haze.apply(tree, ground, stage, glow)
     with tree.frame("Light of other ground"):
         camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-        return tree.mix_shader(camera, _simple_ground(tree, known, biome), ground)
+        return tree.mix_shader(camera, _simple_ground(tree, ground_fields, biome), ground)
 
 
 def _data_outputs(
@@ -150,9 +150,9 @@ def _bump_normal(tree: nodes.Tree, height: nodes.Value, strength: float = 0.9) -
     return tree.output("ShaderNodeBump", {"Strength": strength, "Distance": 1.0, "Height": height})
 
 
-def _soil_shader(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
+def _soil_shader(tree: nodes.Tree, here: Place, biome: ShotBiome) -> nodes.Value:
     """Shade ground without rock: a vegetation texture afar, and the floor below nearby instanced trees."""
-    made = []
+    shaders = []
     for grown, there in (
         (vegetation_cover.distant_canopy, here.coarser(_FAR)),
         (vegetation_cover.near_ground, here),
@@ -163,8 +163,8 @@ def _soil_shader(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
         char = _grain_floor(tree, there, burn_scar.scar_colour(tree, there, logs=not afar))
         green = _matte_shader(tree, _grain_floor(tree, there, colour), normal)
         burned = here.burned * (1.0 - burn_scar.surviving_crowns(there)) if afar else here.burned
-        made.append(tree.mix_shader(burned, green, _matte_shader(tree, char, normal)))
-    return tree.mix_shader(here.near, *made)
+        shaders.append(tree.mix_shader(burned, green, _matte_shader(tree, char, normal)))
+    return tree.mix_shader(here.near, *shaders)
 
 
 def _grain_floor(tree: nodes.Tree, here: Place, colour: nodes.Value) -> nodes.Value:
@@ -173,7 +173,7 @@ def _grain_floor(tree: nodes.Tree, here: Place, colour: nodes.Value) -> nodes.Va
     return tree.mix_colour(1.0, colour, grain, "MULTIPLY")
 
 
-def _rock_shader(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
+def _rock_shader(tree: nodes.Tree, here: Place, biome: ShotBiome) -> nodes.Value:
     colour, height = rock_outcrops.look(tree, here)
     if biome.biome.open_land is not None:
         colour, height = _weather_rock(tree, here, biome, colour, height)
@@ -185,7 +185,7 @@ def _rock_shader(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
 
 
 def _weather_rock(
-    tree: nodes.Tree, here: Place, biome: Here, colour: nodes.Value, height: nodes.Value
+    tree: nodes.Tree, here: Place, biome: ShotBiome, colour: nodes.Value, height: nodes.Value
 ) -> tuple[nodes.Value, nodes.Value]:
     """Shade rock of biomes outside of the Sierra, replaced by soil on gentle slopes."""
     colour = tree.mix_colour(1.0, colour, biome.biome.rock, "MULTIPLY")
@@ -194,9 +194,9 @@ def _weather_rock(
     return tree.mix_colour(flat, colour, soil), tree.mix(flat, height, here.grain.noise(3.0, 3.0) * 0.4)
 
 
-def _simple_ground(tree: nodes.Tree, known: fields.Fields, biome: Here) -> nodes.Value:
+def _simple_ground(tree: nodes.Tree, ground_fields: fields.Fields, biome: ShotBiome) -> nodes.Value:
     """Simplify the ground for indirect light, where detail is not visible."""
-    canopy = known["canopy_fuel"].smoothstep(0.0, 0.7)
+    canopy = ground_fields["canopy_fuel"].smoothstep(0.0, 0.7)
     land = biome.biome.open_land
     grass = (
         (0.080, 0.070, 0.045)
@@ -204,8 +204,8 @@ def _simple_ground(tree: nodes.Tree, known: fields.Fields, biome: Here) -> nodes
         else vegetation_cover.mix_colours(biome.green, land.straw, land.green)
     )
     green = tree.mix_colour(canopy, grass, (0.030, 0.040, 0.018))
-    green = tree.mix_colour(known["bare"], green, (0.120, 0.110, 0.100))
-    burned = (nodes.model_time(tree) > known["burn_time"]) * (known["burned"] > 0.5)
+    green = tree.mix_colour(ground_fields["bare"], green, (0.120, 0.110, 0.100))
+    burned = (nodes.model_time(tree) > ground_fields["burn_time"]) * (ground_fields["burned"] > 0.5)
     colour = tree.mix_colour(burned, green, (0.036, 0.035, 0.034))
     return tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
 

@@ -13,7 +13,7 @@ import bpy
 from ...blender import nodes, owned
 from ..band_limited_noise import Grain
 from ..forest import field_lines, patterns
-from ..forest.biomes import Here, OpenLand
+from ..forest.biomes import OpenLand, ShotBiome
 from .shading_inputs import Place
 
 _MARK = "firetwin_biome"
@@ -35,7 +35,7 @@ class Spot:
     free: nodes.Value
 
 
-def look(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
+def look(tree: nodes.Tree, place: Place, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
     """Return colour and height (m), from a shared node group: Blender is slow with many nodes in a tree."""
     inputs = {
         "Pixel": place.pixel,
@@ -48,7 +48,7 @@ def look(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes
     return tree.pick(node, "Colour"), tree.pick(node, "Height")
 
 
-def _node_group(tree: nodes.Tree, here: Here) -> bpy.types.NodeTree:
+def _node_group(tree: nodes.Tree, here: ShotBiome) -> bpy.types.NodeTree:
     """Return the node group of this biome; an existing one is reused."""
     for node in tree.node_tree.nodes:
         if node.bl_idname == "ShaderNodeGroup" and node.node_tree and node.node_tree.get(_MARK) == here.name:
@@ -76,7 +76,7 @@ def _group_inputs(tree: nodes.Tree) -> Spot:
     return Spot(Grain(tree, position, pixel * least), position, distance, pixel, shrub, hollow, free)
 
 
-def _look(tree: nodes.Tree, place: Spot, here: Here) -> tuple[nodes.Value, nodes.Value]:
+def _look(tree: nodes.Tree, place: Spot, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
     land = here.biome.open_land
     assert land is not None
     small = place.grain.noise(17.0, 4.0, 0.7)
@@ -101,7 +101,7 @@ def _look(tree: nodes.Tree, place: Spot, here: Here) -> tuple[nodes.Value, nodes
     return colour, height
 
 
-def bare_colour(tree: nodes.Tree, place: Place, here: Here) -> nodes.Value:
+def bare_colour(tree: nodes.Tree, place: Place, here: ShotBiome) -> nodes.Value:
     """Return the colour of ground without fuel: soil, dry beds and stones."""
     land = here.biome.open_land
     assert land is not None
@@ -114,7 +114,12 @@ def bare_colour(tree: nodes.Tree, place: Place, here: Here) -> nodes.Value:
 
 
 def _grass(
-    tree: nodes.Tree, place: Spot, here: Here, wet: nodes.Value, middling: nodes.Value, small: nodes.Value
+    tree: nodes.Tree,
+    place: Spot,
+    here: ShotBiome,
+    wet: nodes.Value,
+    middling: nodes.Value,
+    small: nodes.Value,
 ) -> nodes.Value:
     """Return the colour of grass from wetness and season, with soil between."""
     land = here.biome.open_land
@@ -201,7 +206,7 @@ def _maths(tree: nodes.Tree) -> field_lines.Maths:
 
 
 def _colour_fields(
-    tree: nodes.Tree, place: Spot, here: Here, colour: nodes.Value, small: nodes.Value
+    tree: nodes.Tree, place: Spot, here: ShotBiome, colour: nodes.Value, small: nodes.Value
 ) -> nodes.Value:
     """Colour fields in different greens: grazed, mown, hay, and some of them ploughed or stubble."""
     land = here.biome.open_land

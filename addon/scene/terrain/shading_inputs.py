@@ -66,7 +66,7 @@ class Place:
         return replace(self, grain=self.grain.coarser(least))
 
 
-def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Place:
+def gather(tree: nodes.Tree, ground_fields: fields.Fields, shot: Shot, *, whole: bool) -> Place:
     """Gather shading inputs at a point, with noise in all octaves (`whole`) or band-limited to the picture.
 
     Both in the same material cost no more than one of them, if they are in different branches.
@@ -81,40 +81,40 @@ def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -
     cell = max(shot.bare_ground.cell)
     fine = min(1.0, cell / _RAGGED)
     wander = grain.noise(170.0 * fine, 2.0) + grain.noise(1100.0 * fine, 1.0) - 1.0
-    speed, residence = known["speed"], known["residence"]
+    speed, residence = ground_fields["speed"], ground_fields["residence"]
     stray = tree.math("MINIMUM", _STRAY * cell / tree.math("MAXIMUM", speed, 0.01), _JITTER)
-    age = nodes.model_time(tree) - known["burn_time"] + wander * (2.0 * stray)
-    edge = known["burned"] + (grain.noise(120.0 * fine, 3.0 - round(math.log2(fine))) - 0.5) * 0.8
+    age = nodes.model_time(tree) - ground_fields["burn_time"] + wander * (2.0 * stray)
+    edge = ground_fields["burned"] + (grain.noise(120.0 * fine, 3.0 - round(math.log2(fine))) - 0.5) * 0.8
     woody = residence.ramp(15.0, _TIMBER, 0.0, 1.0)
     mixed = shot.fire.smoke.shares[[emissions.GRASS, emissions.SHRUB]].sum() > _SOME
-    edge = edge - _unburned_patches(grain, known["heat"], woody)
+    edge = edge - _unburned_patches(grain, ground_fields["heat"], woody)
     if mixed:
         edge = edge - _unburned_islands(grain, speed, woody, shot.front_scale)
     return Place(
         grain,
         position,
         slope,
-        known["canopy_fuel"],
-        known["bare"],
+        ground_fields["canopy_fuel"],
+        ground_fields["bare"],
         tree.attribute("elevation"),
         distance,
-        known["stand"] * distance.ramp(max(radius, 1.0), TREES_END * max(radius, 1.0), 1.0, 0.0),
+        ground_fields["stand"] * distance.ramp(max(radius, 1.0), TREES_END * max(radius, 1.0), 1.0, 0.0),
         age,
         (age > 0.0) * (edge > 0.5),
         pixel,
         speed,
         residence,
         woody,
-        known["ash"],
-        known["heat"],
-        known["load"],
+        ground_fields["ash"],
+        ground_fields["heat"],
+        ground_fields["load"],
         shot.front_scale,
         mixed,
-        known.beyond,
+        ground_fields.beyond,
         _HILLS * float(np.std(shot.run.elevation[np.isfinite(shot.run.elevation)])),
-        known["shrub"],
-        known["hollow"],
-        1.0 - known["mapped"],
+        ground_fields["shrub"],
+        ground_fields["hollow"],
+        1.0 - ground_fields["mapped"],
         granite.filtered_noise(tree, position, 0.6, 5.0, pixel, 0.72),
     )
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...blender import nodes
 from ..band_limited_noise import Grain
-from ..forest.biomes import Colour, Here
+from ..forest.biomes import Colour, ShotBiome
 from . import open_land as lands
 from .shading_inputs import Place
 
@@ -41,7 +41,7 @@ def crowns(tree: nodes.Tree, place: Place, size: float, groups: nodes.Value) -> 
     return Crowns(tree.mix(sharp, 0.52, deep), tree.mix(sharp, 0.5, tint), tree.mix(sharp, 0.25, alone))
 
 
-def distant_canopy(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
+def distant_canopy(tree: nodes.Tree, place: Place, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
     """Return colour and height (m) where trees are part of the ground."""
     grain = place.grain
     fine, patch, groups = _fine_noise(grain), _patch_noise(grain), _group_noise(grain)
@@ -68,7 +68,7 @@ def distant_canopy(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Va
     return tree.mix_colour(cover, open_ground, canopy), height
 
 
-def trees_on_rock(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
+def trees_on_rock(tree: nodes.Tree, place: Place, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
     """Return the colour of lone trees on rock, and their coverage (0..1).
 
     They use separate cells, which are therefore evaluated on rock only.
@@ -80,7 +80,7 @@ def trees_on_rock(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Val
     return tree.mix_colour(crown.dark, lit, biome.between), where
 
 
-def near_ground(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
+def near_ground(tree: nodes.Tree, place: Place, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
     """Return colour and height (m) of the ground where trees and brush are instanced."""
     fine, patch = _fine_noise(place.grain), _patch_noise(place.grain)
     height: nodes.Value | None = None
@@ -109,7 +109,7 @@ def _patch_noise(grain: Grain) -> nodes.Value:
     return grain.noise(420.0, 4.0, 0.6)
 
 
-def _crown_colour(tree: nodes.Tree, tint: nodes.Value, here: Here) -> nodes.Value:
+def _crown_colour(tree: nodes.Tree, tint: nodes.Value, here: ShotBiome) -> nodes.Value:
     """Return the colour of sunlit crowns."""
     dark, light = (
         seasonal_colour(here, colour, part) for colour, part in zip(here.biome.needles, _TURNS, strict=True)
@@ -128,7 +128,7 @@ def _stand_noise(grain: Grain) -> nodes.Value:
 
 
 def _canopy_colour(
-    tree: nodes.Tree, grain: Grain, tint: nodes.Value, hue: nodes.Value, here: Here
+    tree: nodes.Tree, grain: Grain, tint: nodes.Value, hue: nodes.Value, here: ShotBiome
 ) -> nodes.Value:
     """Return the colour of sunlit crowns: varied by crown, by stand (`hue`, 0..1) and by hillside."""
     dark = tree.mix_colour(tint > _LOST, _crown_colour(tree, tint, here), _BROWN)
@@ -140,7 +140,7 @@ def _canopy_colour(
 
 
 def _open_ground_colour(
-    tree: nodes.Tree, place: Place, fine: nodes.Value, patch: nodes.Value, tint: nodes.Value, here: Here
+    tree: nodes.Tree, place: Place, fine: nodes.Value, patch: nodes.Value, tint: nodes.Value, here: ShotBiome
 ) -> nodes.Value:
     """Return the colour of the Sierra's meadows, soil and brush."""
     dry = place.elevation.ramp(500.0, 1500.0, 1.0, 0.0)
@@ -158,7 +158,7 @@ def mix_colours(part: float, first: Colour, second: Colour) -> Colour:
     return tuple(np.add(first, part * np.subtract(second, first)).tolist())
 
 
-def seasonal_colour(here: Here, colour: Colour, part: float = 1.0) -> Colour:
+def seasonal_colour(here: ShotBiome, colour: Colour, part: float = 1.0) -> Colour:
     """Return the colour of crowns, with `part` times the biome's deciduous crowns by season."""
     biome, leaves = here.biome, here.leaves
     turned = np.multiply(colour, 1.0 + leaves.turned * (np.array(biome.withered) - 1.0))

@@ -50,7 +50,7 @@ def lit_windows(building: Building, number: int, part: float, seed: int) -> tupl
     part = part / (1.0 - _DARK)
     ground = building.roof - building.footprint.height
     storeys = max(int(building.footprint.height / STOREY + 0.25), 1)
-    found = []
+    corners = []
     for ring in building.footprint.rings:
         for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
             length = float(np.hypot(*(end - start)))
@@ -64,10 +64,10 @@ def lit_windows(building: Building, number: int, part: float, seed: int) -> tupl
             side = at[:, None] + np.array([-0.5, 0.5, 0.5, -0.5]) * _WIDE
             place = start + side[..., None] * along + _OUT * np.array([along[1], -along[0]])
             height = floors[:, None] + np.array([0.0, 0.0, 1.0, 1.0]) * _HIGH
-            found.append(np.concatenate([place, height[..., None]], axis=2))
-    if not found:
+            corners.append(np.concatenate([place, height[..., None]], axis=2))
+    if not corners:
         return np.empty((0, 4, 3)), np.empty((0, 3))
-    faces = np.concatenate(found)
+    faces = np.concatenate(corners)
     index = np.arange(len(faces))
     chosen = noise.uniform(index, np.full(len(faces), number), seed + 72) < part
     lot = noise.uniform(index, np.full(len(faces), number), seed + 73)[chosen, None]

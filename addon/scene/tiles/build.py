@@ -51,14 +51,14 @@ def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
 
 def _pieces(cut: TileCut) -> list[str]:
     """List the pieces of a cut's tiles by name: triangles and points."""
-    found = []
+    names = []
     for name in cut.tiles:
         about = decoded.read_summary(cut.folder / name)
         if about is None or about.triangles or not about.points:
-            found.append(name)
+            names.append(name)
         if about is not None and about.points:
-            found.append(name + _POINTS)
-    return found
+            names.append(name + _POINTS)
+    return names
 
 
 def _shape_digest(shot: Shot, cut: TileCut, name: str) -> str:

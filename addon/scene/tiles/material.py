@@ -29,20 +29,20 @@ def build(
     stage: Stage,
     images: list[bpy.types.Image],
     grown: Stand | None,
-    known: list[bpy.types.Material],
+    materials: list[bpy.types.Material],
 ) -> list[bpy.types.Material]:
     """Build a material for tiles without a picture, and one for each image; all share one node group.
 
     Parameters
     ----------
-    known
+    materials
         Materials of the last build.
     """
     made_of = _inputs(shot, images)
-    same = [each.get(MADE_OF) for each in known] == [made_of] * (1 + len(images))
-    same = same and [image for each in known for image in reuse.images(each)] == images
-    if same and all(each[STATE] == state.digest_material(each) for each in known):
-        return known
+    same = [each.get(MADE_OF) for each in materials] == [made_of] * (1 + len(images))
+    same = same and [image for each in materials for image in reuse.images(each)] == images
+    if same and all(each[STATE] == state.digest_material(each) for each in materials):
+        return materials
     first = material.build(shot, stage, fields.create_images(shot, grown), skin=_NAME)
     others = [owned.mark(first.copy()) for _ in images]
     colour(first, None)

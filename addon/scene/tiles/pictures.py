@@ -17,7 +17,7 @@ _FIRST = 1001
 
 
 def load(
-    slots: Mapping[str, Slot], folder: Path, known: Sequence[bpy.types.Image] = ()
+    slots: Mapping[str, Slot], folder: Path, loaded: Sequence[bpy.types.Image] = ()
 ) -> list[bpy.types.Image]:
     """Load the images of all slots.
 
@@ -25,17 +25,17 @@ def load(
 
     Parameters
     ----------
-    known
+    loaded
         Images of the last build, which are reused if unchanged.
     """
     members: dict[int, dict[int, str]] = {}
     for picture, slot in slots.items():
         members.setdefault(slot.image, {})[slot.part] = picture
-    return [_load(number, members[number], folder, known) for number in sorted(members)]
+    return [_load(number, members[number], folder, loaded) for number in sorted(members)]
 
 
 def _load(
-    number: int, parts: dict[int, str], folder: Path, known: Sequence[bpy.types.Image]
+    number: int, parts: dict[int, str], folder: Path, loaded: Sequence[bpy.types.Image]
 ) -> bpy.types.Image:
     end = Path(parts[0]).suffix
     made_of = hashlib.sha256(repr(sorted(parts.items())).encode()).hexdigest()[:32]
@@ -44,7 +44,7 @@ def _load(
     for part, picture in parts.items():
         _link(folder / picture, place / f"{_FIRST + part}{end}")
     path, numbers = str(place / f"<UDIM>{end}"), sorted(_FIRST + part for part in parts)
-    for image in known:
+    for image in loaded:
         if image.get(MADE_OF) == made_of and image[STATE] == _state(image) and _at(image) == path:
             return image
     image = bpy.data.images.new(f"Firetwin Tiles {number + 1}", 8, 8, tiled=True)

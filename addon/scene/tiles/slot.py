@@ -32,17 +32,17 @@ class Slot:
         return (inside + np.array([self.part % _ROW, self.part // _ROW])).astype(np.float32)
 
 
-def arrange(pictures: Sequence[str], known: Mapping[str, Slot] | None = None) -> dict[str, Slot]:
+def arrange(pictures: Sequence[str], former: Mapping[str, Slot] | None = None) -> dict[str, Slot]:
     """Assign slots to pictures' files: an image has files of one type, at most `PARTS`.
 
     Parameters
     ----------
-    known
+    former
         Slots of the last build. Pictures keep their slots, so that their tiles need no rebuild; new pictures
         fill the gaps. If the first part of an image would be empty, all slots are assigned again.
     """
     wanted = dict.fromkeys(pictures)
-    slots = {name: slot for name, slot in (known or {}).items() if name in wanted}
+    slots = {name: slot for name, slot in (former or {}).items() if name in wanted}
     ends: dict[int, str] = {}
     taken = set(slots.values())
     for name, slot in slots.items():

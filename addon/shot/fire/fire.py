@@ -196,7 +196,7 @@ class Fire:
     def smoke(self) -> emissions.Mix:
         """Composition of the smoke of all this fuel at complete burn-out."""
         fuel, crown = self.fuel, emissions.CROWN
-        made, heat_of = np.zeros(len(emissions.KINDS)), 0.0
+        smoke_of_kind, heat_of = np.zeros(len(emissions.KINDS)), 0.0
         parts = ((fuel.surface, fuel.kind, fuel.slow), (fuel.canopy, crown, np.float64(BURN_OUT_CANOPY)))
         for load, of, slow in parts:
             flames = -np.expm1(-_FLAMES[of] / slow)
@@ -205,9 +205,9 @@ class Fire:
             heat_of += float(
                 sum((mass * per_kg[of]).sum() for mass, per_kg in zip(burned, _HEAT, strict=True))
             )
-            made += np.bincount(np.broadcast_to(of, load.shape), smoke, len(made))
+            smoke_of_kind += np.bincount(np.broadcast_to(of, load.shape), smoke, len(smoke_of_kind))
         power = max(self.sources(time).power.sum() for time in np.linspace(self.first, self.last, _MOMENTS))
-        return emissions.mix(made, heat_of, float(power))
+        return emissions.mix(smoke_of_kind, heat_of, float(power))
 
     def smoke_made(self, first: float, last: float) -> float:
         """Smoke emitted between two model times (s), kg, by the trapezoidal rule."""

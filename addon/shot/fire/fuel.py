@@ -65,7 +65,7 @@ class Fuel:
 
 def gather(
     run: Run,
-    known: Array | None,
+    measured_arrival: Array | None,
     first: float,
     last: float,
     before: float,
@@ -78,7 +78,7 @@ def gather(
 
     Parameters
     ----------
-    known
+    measured_arrival
         Arrival times (fy, fx), s, NaN where never; None: the run's.
     relief
         Terrain elevation; None: the run's.
@@ -86,7 +86,7 @@ def gather(
         Merging distance of fuel cells, m.
     """
     heights = relief or Elevation(run)
-    arrival, share = blocks.arrival(run, known), None
+    arrival, share = blocks.arrival(run, measured_arrival), None
     if run.has(burned_fraction.FIELD):
         share = burned_fraction.at(run, float(run.times[-1]))
     window = first, last, before

@@ -83,7 +83,7 @@ def choose(extent: float, fuel_cell: float, budget: float = _BUDGET) -> Scale:
     """
     finest = np.clip(extent / _ACROSS, _CELLS[0], REFERENCE) * (_BUDGET / budget) ** 0.25
     finest = max(float(finest), fuel_cell / _FUEL)
-    found = [
+    fitting = [
         Scale(float(cell), nested)
         for cell in _CELLS[0.999 * finest <= _CELLS]
         for nested in (True, False)
@@ -91,7 +91,7 @@ def choose(extent: float, fuel_cell: float, budget: float = _BUDGET) -> Scale:
         and _affordable(Scale(float(cell), nested), extent, budget)
     ]
     return min(
-        found, key=lambda each: each.cell / FINER**each.nested, default=Scale(float(_CELLS[-1]), False)
+        fitting, key=lambda each: each.cell / FINER**each.nested, default=Scale(float(_CELLS[-1]), False)
     )
 
 

@@ -67,13 +67,13 @@ def _metered(shot: Shot) -> _Metered:
         clear = [exposure_meter.clear(sky.state(shot, shot.frames.time(frame))) for frame in frames]
         stops = np.array([_stops(each, np.zeros(2)) for each in clear])
         return _Metered(frames, stops, noise.smoothstep(*_DARK, stops))
-    found = [[exposure_meter.measure(shot, view, int(frame)) for frame in frames] for view in shot.paths]
+    metered = [[exposure_meter.measure(shot, view, int(frame)) for frame in frames] for view in shot.paths]
     suns = [_sun(shot, frame) for frame in frames]
-    dark = np.array([[_dark(each[1], sun) for each, sun in zip(view, suns, strict=True)] for view in found])
+    dark = np.array([[_dark(each[1], sun) for each, sun in zip(view, suns, strict=True)] for view in metered])
     stops = np.array(
         [
             _stops(*_with_flames(all_light, level, shine, sun))
-            for (all_light, level, shine), sun in zip(found[0], suns, strict=True)
+            for (all_light, level, shine), sun in zip(metered[0], suns, strict=True)
         ]
     )
     return _Metered(frames, targets.smoothed(stops), targets.smoothed(dark.max(axis=0)))

@@ -112,8 +112,8 @@ def chart(seed: int) -> NDArray[np.float32]:
     Channels are the star's place within its texel (across, up; 0..1), its flux, 1 for magnitude 0, and its
     B - V from -0.4 (0) to 2.0 (1).
     """
-    _, known = brightest()
-    longitude, latitude = _galactic(np.radians(known[:, 0]), np.radians(known[:, 1]))
+    _, catalogue = brightest()
+    longitude, latitude = _galactic(np.radians(catalogue[:, 0]), np.radians(catalogue[:, 1]))
     random = np.random.default_rng([seed, 41])
     low = 10.0 ** (_SLOPE * (_COMPLETE - _FAINTEST))
     magnitude = _FAINTEST + np.log10(random.uniform(low, 1.0, _COUNT)) / _SLOPE
@@ -121,8 +121,8 @@ def chart(seed: int) -> NDArray[np.float32]:
     disc = np.radians(np.clip(random.laplace(0.0, _DISC, _COUNT), -80.0, 80.0))
     latitude = np.append(np.where(random.uniform(size=_COUNT) < _DISC_SHARE, disc, even), latitude)
     longitude = np.append(random.uniform(0.0, 2.0 * np.pi, _COUNT), longitude)
-    magnitude = np.append(magnitude, known[:, 2])
-    colour = np.append(np.clip(random.normal(0.55, 0.5, _COUNT), -0.3, 1.8), known[:, 3])
+    magnitude = np.append(magnitude, catalogue[:, 2])
+    colour = np.append(np.clip(random.normal(0.55, 0.5, _COUNT), -0.3, 1.8), catalogue[:, 3])
     across, up = longitude / (2.0 * np.pi) * COLUMNS, (latitude / np.pi + 0.5) * ROWS
     column, row = np.minimum(across.astype(int), COLUMNS - 1), np.minimum(up.astype(int), ROWS - 1)
     order = np.argsort(-magnitude, kind="stable")  # a texel keeps its brightest star, written last

@@ -203,9 +203,9 @@ class Settings(SceneSettings):
                 FrameList(camera.frames).frames(self.time.frames)
             except ValueError as error:
                 return ("cameras", i, "frames"), f"cameras.frames: {error}"
-        return self._unknown_followed() or self._impossible() or self._alone()
+        return self._unknown_followed() or self._impossible() or self._comparison_fault()
 
-    def _alone(self) -> tuple[Where, str] | None:
+    def _comparison_fault(self) -> tuple[Where, str] | None:
         """Check the comparison runs, and passes that need them."""
         names = [run.name for run in self.runs]
         i = twice(names)

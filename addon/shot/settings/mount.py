@@ -21,7 +21,7 @@ MAP = "map"
 
 
 def taken(
-    settings: Settings, cameras: Sequence[Camera], name: str, made: passes.Pass
+    settings: Settings, cameras: Sequence[Camera], name: str, derived: passes.Pass
 ) -> dict[str, tuple[str, str]]:
     """Camera and pass that supply each input of a pass of the camera `name`.
 
@@ -30,10 +30,10 @@ def taken(
     cameras
         All cameras of the scene file.
     """
-    if not isinstance(made, passes.DerivedPass):
+    if not isinstance(derived, passes.DerivedPass):
         return {}
-    suppliers = {need: (name, need) for need in made.needs}
-    if not made.mount:
+    suppliers = {need: (name, need) for need in derived.needs}
+    if not derived.mount:
         return suppliers
     (camera,) = (each for each in cameras if each.name == name)
     own = _records(settings, camera)
@@ -42,7 +42,7 @@ def taken(
             continue
         records = _records(settings, other)
         if isinstance(other.rig, Mounted):
-            free = (need for need in made.needs if need in records - own and suppliers[need][0] == name)
+            free = (need for need in derived.needs if need in records - own and suppliers[need][0] == name)
             suppliers |= {need: (other.name, need) for need in free}
         elif isinstance(other.rig, Minimap) and "rgb" in records:
             suppliers.setdefault(MAP, (other.name, "rgb"))

@@ -97,15 +97,17 @@ class TableReader(SceneText):
         for section in {section for section, _ in FORMER_KEYS}:
             if isinstance(renamed.get(section), dict):
                 renamed[section] = self.renamed(renamed[section], keys, (section,), f"{section}.{{}}")
-        for (section, key), known in FORMER_VALUES.items():
+        for (section, key), new_values in FORMER_VALUES.items():
             table = renamed.get(section)
             if not isinstance(table, dict):
                 continue
             then = table.get(key)
-            if isinstance(then, str) and then in known:
-                reason = f'{section}.{key} = "{then}" is called "{known[then]}" now; the old value is read'
+            if isinstance(then, str) and then in new_values:
+                reason = (
+                    f'{section}.{key} = "{then}" is called "{new_values[then]}" now; the old value is read'
+                )
                 self.former.append(str(self.error((section, key), f"{reason} in this version only")))
-                renamed[section] = {**table, key: known[then]}
+                renamed[section] = {**table, key: new_values[then]}
         return renamed
 
     def renamed(
@@ -134,16 +136,16 @@ class TableReader(SceneText):
         for name in values:
             if name not in own and name not in flat and name not in tag:
                 raise self.error((*where, name), self.unknown(name, [*tag, *own, *flat], rig, where))
-        known = {name: self.part(part, values, where) for name, part in own.items()}
+        kwargs = {name: self.part(part, values, where) for name, part in own.items()}
         if rig and rig_kind:
-            known[rig.name] = rig_kind(
+            kwargs[rig.name] = rig_kind(
                 **{name: self.part(part, values, where) for name, part in flat.items()}
             )
         if kind is Settings:
-            known |= {"path": self.path, "notes": tuple(self.former)}
+            kwargs |= {"path": self.path, "notes": tuple(self.former)}
         if kind is Time:
-            return Time(**known).with_frames(values)
-        return kind(**known)
+            return Time(**kwargs).with_frames(values)
+        return kind(**kwargs)
 
     def kind(self, key: Key, values: dict[str, Any], where: Where) -> tuple[type, tuple[str]]:
         """Dataclass selected by the key `tag` of a table, and the tag."""
@@ -152,15 +154,15 @@ class TableReader(SceneText):
             raise self.error(here, f"{_dotted(here)} {reason}")
         return key.all_variants()[name], (key.tag,)
 
-    def unknown(self, name: str, known: list[str], rig: Field | None, where: Where) -> str:
+    def unknown(self, name: str, names: list[str], rig: Field | None, where: Where) -> str:
         """Error message for an unknown key."""
         kinds = rig.key.all_variants() if rig else {}
         having = [kind for kind, made in kinds.items() if name in (part.name for part in fields(made))]
         if rig and having:
-            return f"{name} belongs to {rig.key.tag} {either(having)}; known here: {', '.join(known)}"
+            return f"{name} belongs to {rig.key.tag} {either(having)}; known here: {', '.join(names)}"
         place = f"in [{_dotted(where)}]" if where else f"in a {self.noun}"
         return f'unknown key "{name}" {place}' + (
-            suggestion(name, known) or f"; known here: {', '.join(known)}"
+            suggestion(name, names) or f"; known here: {', '.join(names)}"
         )
 
     def part(self, part: Field, values: dict[str, Any], where: Where) -> Any:

@@ -137,21 +137,23 @@ def _with_section(blocks: list[Block], name: str, was: Values, now: Values) -> l
     ]
 
 
-def _with_lists(blocks: list[Block], made: list[Block], path: Where, was: Values, now: Values) -> list[Block]:
+def _with_lists(
+    blocks: list[Block], added: list[Block], path: Where, was: Values, now: Values
+) -> list[Block]:
     """Update the lists of tables in the table at `path`, and those nested in them."""
     for name in {**was, **now}:
         here = (*path, name)
         size = len(here)
-        if any(block.path[:size] == here and len(block.path) > size for block in blocks + made):
-            blocks = _with_list(blocks, made, here, name, was, now)
+        if any(block.path[:size] == here and len(block.path) > size for block in blocks + added):
+            blocks = _with_list(blocks, added, here, name, was, now)
             for i, (old, new) in enumerate(zip(was.get(name, []), now.get(name, []), strict=False)):
                 if any(block.path == (*here, i) for block in blocks):  # else it is an inline table
-                    blocks = _with_lists(blocks, made, (*here, i), old, new)
+                    blocks = _with_lists(blocks, added, (*here, i), old, new)
     return blocks
 
 
 def _with_list(
-    blocks: list[Block], made: list[Block], path: Where, name: str, was: Values, now: Values
+    blocks: list[Block], added: list[Block], path: Where, name: str, was: Values, now: Values
 ) -> list[Block]:
     """Reorder, add and remove the tables of a list; `was` is changed accordingly."""
     size = len(path)
@@ -162,7 +164,7 @@ def _with_list(
         return blocks
     units: list[Block] = []
     for i, source in enumerate(sources):
-        of = (made, i) if source is None else (blocks, source)
+        of = (added, i) if source is None else (blocks, source)
         unit = [block for block in of[0] if block.path[: size + 1] == (*path, of[1])]
         units += _spaced([replace(block, path=(*path, i, *block.path[size + 1 :])) for block in unit])
     was[name] = [new[i] if source is None else old[source] for i, source in enumerate(sources)]

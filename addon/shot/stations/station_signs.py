@@ -91,16 +91,16 @@ def make_signs(shot: Shot) -> list[Sign]:
     settings = shot.settings.stations
     if not settings.enabled or settings.file is None:
         return []
-    known = reading.read(settings.file)
+    station_file = reading.read(settings.file)
     axes = shot.ground.fields.latitude, shot.ground.fields.longitude
-    here = _within(settings.file, known.stations, *axes)
-    outlines, minutes, fire = _outlines(shot.settings), _minutes(shot, known, here), _fire(shot, here)
+    here = _within(settings.file, station_file.stations, *axes)
+    outlines, minutes, fire = _outlines(shot.settings), _minutes(shot, station_file, here), _fire(shot, here)
     boxes = bounds(outlines)
     return [
         _sign(
             settings.show,
             station,
-            known.resources_of[station.id],
+            station_file.resources_of[station.id],
             least,
             arrival,
             nearest_outline(outlines, boxes, station.latitude, station.longitude),
@@ -174,17 +174,17 @@ def check(settings: Settings, run: Run) -> None:
     InputError
         A file cannot be read, has too many stations, or none is given.
     """
-    known = settings.stations
-    if not known.enabled:
+    stations = settings.stations
+    if not stations.enabled:
         return
-    if known.file is None and known.routes_file is None:
+    if stations.file is None and stations.routes_file is None:
         reason = "stations.enabled needs stations.file, a GeoPackage of stations, or stations.routes_file"
         raise scene_text.error_at(settings.path, ("stations", "enabled"), reason)
-    if known.file is not None:
-        _within(known.file, reading.read(known.file).stations, run.latitude, run.longitude)
+    if stations.file is not None:
+        _within(stations.file, reading.read(stations.file).stations, run.latitude, run.longitude)
     _outlines(settings)
-    if known.routes_file is not None:
-        drawn_routes.read(known.routes_file)
+    if stations.routes_file is not None:
+        drawn_routes.read(stations.routes_file)
 
 
 def _minutes(shot: Shot, known: StationFile, here: Sequence[Station]) -> list[str]:
@@ -236,15 +236,15 @@ def _outlines(settings: Settings) -> list[Array]:
     path = settings.stations.footprints
     if path is None:
         return []
-    found = [rings[0] for each in read_features(path) for rings in each.polygons]
-    most = max(map(len, found), default=0)
+    outlines = [rings[0] for each in read_features(path) for rings in each.polygons]
+    most = max(map(len, outlines), default=0)
     if most > limits.CORNERS:
         reason = f"has a footprint of {most:,} corners; simplify it to at most {limits.CORNERS:,}"
         raise input_error(path, reason)
-    if (corners := sum(map(len, found))) > limits.FOOTPRINT_CORNERS:
+    if (corners := sum(map(len, outlines))) > limits.FOOTPRINT_CORNERS:
         reason = f"has footprints of {corners:,} corners; cut out the area of the scene"
         raise input_error(path, reason)
-    return found
+    return outlines
 
 
 def bounds(outlines: list[Array]) -> Array:
@@ -265,10 +265,10 @@ def nearest_outline(outlines: list[Array], boxes: Array, latitude: float, longit
     west, south = areas.turned(boxes[:, 0], longitude), boxes[:, 1]
     close = (west <= longitude + beyond[0]) & (west + boxes[:, 2] - boxes[:, 0] >= longitude - beyond[0])
     close &= (south <= latitude + beyond[1]) & (boxes[:, 3] >= latitude - beyond[1])
-    best, found = _BESIDE, None
+    best, outline = _BESIDE, None
     for ring in (outlines[k] for k in np.flatnonzero(close)):
         turned = areas.turned(ring[:, 0], longitude)
         far = float(np.hypot((turned - longitude) * east, (ring[:, 1] - latitude) * north).min())
         if far < best:
-            best, found = far, ring
-    return found
+            best, outline = far, ring
+    return outline

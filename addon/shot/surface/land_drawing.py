@@ -99,10 +99,10 @@ def draw_field(
     picture: Picture, rings: Sequence[Array], colour: Colour, strength: float, pattern: str
 ) -> None:
     """Draw a field: rows along its longest side, tramlines in crops, headlands, and a strip of grass."""
-    found = picture.filled(rings)
-    if found is None:
+    covered = picture.filled(rings)
+    if covered is None:
         return
-    across = _across(picture, found[0], rings[0])
+    across = _across(picture, covered[0], rings[0])
     distance, contrast = _ROWS[pattern]
     seen = float(np.clip(0.5 * distance * picture.metre - 1.0, 0.0, 1.0))
     tone = 1.0 + np.float32(contrast * seen) * np.sin(np.float32(2.0 * np.pi / distance) * across)
@@ -110,14 +110,14 @@ def draw_field(
         tone += np.float32(0.06 * seen) * np.sign(np.sin(np.float32(np.pi / distance) * across))
     wheels = _tramlines(across, picture) if pattern == CROP else np.float32(0.0)
     shade = [part * tone + wheels * (soil - part * tone) for part, soil in zip(colour, _SOIL, strict=True)]
-    picture.fill(found, shade, strength)
+    picture.fill(covered, shade, strength)
     sides = [np.stack(side) for ring in rings for side in zip(ring, np.roll(ring, -1, axis=0), strict=True)]
     red, green, blue = (0.94 * part for part in colour)
     for width, over, part in ((_HEADLAND, (red, green, blue), strength), (_MARGIN, _GRASS, 0.8 * strength)):
         for side in sides:
             near = picture.stroked(side, 2.0 * width)
             if near is not None:
-                picture.blend((near[0], near[1] * _within(found, near[0], near[1].shape)), over, part)
+                picture.blend((near[0], near[1] * _within(covered, near[0], near[1].shape)), over, part)
 
 
 def draw_track(picture: Picture, line: Array, width: float, colour: Colour) -> None:
@@ -144,13 +144,13 @@ def draw_bank(picture: Picture, line: Array, width: float) -> None:
 
 
 def _within(
-    found: rasterize.Covered | None, window: tuple[slice, slice], shape: tuple[int, ...]
+    covered: rasterize.Covered | None, window: tuple[slice, slice], shape: tuple[int, ...]
 ) -> NDArray[np.float64]:
     """Coverage of another window, on the pixels of this one."""
     inner = np.zeros(shape)
-    if found is None:
+    if covered is None:
         return inner
-    theirs, cover = found
+    theirs, cover = covered
     to, of = [], []
     for mine, other in zip(window, theirs, strict=True):
         first, last = max(mine.start, other.start), min(mine.stop, other.stop)

@@ -124,13 +124,13 @@ def read_map(shot: Shot) -> Map | None:
 @cached_on_shot
 def pictures(shot: Shot) -> dict[str, list[OrthophotoImage]]:
     """Pictures of each map layer: the whole map, and finer ones near the cameras."""
-    known = read_map(shot)
-    if known is None:
+    land = read_map(shot)
+    if land is None:
         return {}
-    frames = _frames(shot, known)
-    present = {KINDS[feature.kind].layer for feature in known.features}
+    frames = _frames(shot, land)
+    present = {KINDS[feature.kind].layer for feature in land.features}
     layers = [layer for layer in LAYERS if layer in present or (layer == "soft" and "water" in present)]
-    return {layer: [_drawn(shot, known, layer, *frame) for frame in frames] for layer in layers}
+    return {layer: [_drawn(shot, land, layer, *frame) for frame in frames] for layer in layers}
 
 
 def mapped(shot: Shot, place: Array) -> NDArray[np.bool_]:
@@ -144,27 +144,27 @@ def mapped(shot: Shot, place: Array) -> NDArray[np.bool_]:
 
 def planted(shot: Shot, place: Array) -> NDArray[np.bool_]:
     """Test if points (n, 2 or 3) in the scene, m, are in plantations of the map."""
-    found = np.zeros(len(place), bool)
+    is_planted = np.zeros(len(place), bool)
     known = read_map(shot)
     for each in known.features if known else ():
         if each.kind == "plantation":
             for polygon in each.polygons:
-                found |= inside(polygon, place[:, :2])
-    return found
+                is_planted |= inside(polygon, place[:, :2])
+    return is_planted
 
 
 def hedges(shot: Shot, place: Array) -> NDArray[np.bool_]:
     """Test if points (n, 2 or 3) in the scene, m, are in hedges of the map."""
-    found = np.zeros(len(place), bool)
+    is_hedge = np.zeros(len(place), bool)
     known = read_map(shot)
     for each in known.features if known else ():
         if each.kind != "hedge":
             continue
         for polygon in each.polygons:
-            found |= inside(polygon, place[:, :2])
+            is_hedge |= inside(polygon, place[:, :2])
         for line in each.lines:
-            found |= _beside(line, 0.5 * each.width, place)
-    return found
+            is_hedge |= _beside(line, 0.5 * each.width, place)
+    return is_hedge
 
 
 def _beside(line: Array, reach: float, place: Array) -> NDArray[np.bool_]:

@@ -36,7 +36,7 @@ def areas_of(
     """
     ground, largest = shot.ground, shot.settings.terrain.photo_size
     low, high = _whole(shot, bounds)
-    found = [(low, high)]
+    areas = [(low, high)]
     coarse = float(np.max((high - low) / size_of(low, high, step, largest)))
     for radius in ground.near_radius * np.asarray(factors) if len(ground.eyes) else ():
         eyes = ground.eyes[:, :2]
@@ -44,9 +44,9 @@ def areas_of(
         near_high = np.clip(eyes.max(axis=0) + radius, low, high)
         fine = max(step, float(np.max(near_high - near_low)) / largest)
         if radius > 0.0 and np.all(near_high - near_low > step) and fine < 0.7 * coarse:
-            found.append((near_low, near_high))
+            areas.append((near_low, near_high))
             coarse = fine
-    return found
+    return areas
 
 
 def _whole(shot: Shot, bounds: tuple[float, float, float, float]) -> tuple[Array, Array]:

@@ -55,7 +55,11 @@ Known = Callable[[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 
 
 def extend(
-    fields: TerrainFields, cell: tuple[float, float], half_width: float, seed: int, known: Known | None = None
+    fields: TerrainFields,
+    cell: tuple[float, float],
+    half_width: float,
+    seed: int,
+    measured: Known | None = None,
 ) -> TerrainFields:
     """Extend fields by an apron that reaches `half_width` metres from the centre.
 
@@ -63,7 +67,7 @@ def extend(
     ----------
     cell
         Cell size north and east, m.
-    known
+    measured
         Function that replaces synthetic heights (ny, nx) on a grid of latitudes and longitudes by known ones.
     """
     rows, columns = fields.elevation.shape
@@ -96,8 +100,8 @@ def extend(
         elevation = np.pad(fields.elevation, count)
         elevation[row, column] = _heights(fields.elevation, y[inside], x[inside], points, seed)
         invented = elevation[row, column]
-        if known is not None:
-            elevation[row, column] = known(latitude, longitude, elevation)[row, column]
+        if measured is not None:
+            elevation[row, column] = measured(latitude, longitude, elevation)[row, column]
         ranks = [each.result() for each in ranked]
     sea = _sea(fields, points, ranks[1])
     if sea is not None:
@@ -210,7 +214,7 @@ def _reflected(count: int, position: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 def _heights(
-    known: NDArray[np.float64],
+    heights: NDArray[np.float64],
     y: NDArray[np.float64],
     x: NDArray[np.float64],
     points: _Points,
@@ -222,8 +226,8 @@ def _heights(
     with inverted sign, so that slopes continue. Its offset at the edge fades faster the finer it is; else it
     would form ridges across the edge.
     """
-    part = _part(known.shape)
-    some, y, x = known[part], y[part[0]], x[part[1]]
+    part = _part(heights.shape)
+    some, y, x = heights[part], y[part[0]], x[part[1]]
     design = np.stack(np.broadcast_arrays(1.0, y[:, None], x[None, :]), axis=-1).reshape(-1, 3)
     plane = np.linalg.lstsq(design.T @ design, design.T @ some.ravel(), rcond=None)[0]
     low, high = np.percentile(some, [2, 98])
@@ -240,9 +244,9 @@ def _heights(
         amplitude *= 0.5
     like = np.exp(-points.distance / _MIRROR_LENGTH)
     cell = abs(y[1] - y[0]) / (part[0].step or 1)
-    smooth, turned = known, np.zeros(points.x.shape)
+    smooth, turned = heights, np.zeros(points.x.shape)
     for cells in _BANDS_OF_RELIEF:
-        finer, smooth = smooth, _blurred(known, cells)
+        finer, smooth = smooth, _blurred(heights, cells)
         fine = finer - smooth
         near = noise.smoothstep(_FADES * cells * cell, 0.0, points.distance)
         turned += 2.0 * near * fine[points.edge] - fine[points.across]

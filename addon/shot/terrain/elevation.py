@@ -230,15 +230,15 @@ def unit(model: GeoTiff | _Stacked) -> float:
     return _UNITS[model.unit]
 
 
-def ramp(known: NDArray[np.bool_], width: int) -> NDArray[np.float32]:
+def ramp(has_height: NDArray[np.bool_], width: int) -> NDArray[np.float32]:
     """Ramp (ny, nx): 1 if all points within `width` steps are known, falling smoothly to 0 at unknown ones.
 
     The edge continues beyond the grid.
     """
-    total, eroded = np.zeros(known.shape, np.float32), known
+    total, eroded = np.zeros(has_height.shape, np.float32), has_height
     for _ in range(width):
         if eroded.all() and not total.any():
-            return np.ones(known.shape, np.float32)
+            return np.ones(has_height.shape, np.float32)
         total += eroded
         eroded = _eroded(eroded)
     total /= np.float32(width)

@@ -29,10 +29,10 @@ def average(values: Array, fields: TerrainFields) -> Array:
 
 def _average_rows(values: Array, place: Array, width: Array, margin: int) -> Array:
     """Average the outer `margin` rows (n, m) along columns at places (m,), over widths (n,), all in m."""
-    found = values.copy()
+    averages = values.copy()
     for row in (*range(margin), *range(len(values) - margin, len(values))):
         total = np.concatenate([[0.0], np.cumsum(values[row])])
         low = np.searchsorted(place, place - 0.5 * width[row])
         high = np.searchsorted(place, place + 0.5 * width[row], "right")
-        found[row] = (total[high] - total[low]) / (high - low)
-    return found
+        averages[row] = (total[high] - total[low]) / (high - low)
+    return averages

@@ -32,17 +32,17 @@ def continued(values: NDArray, width: int) -> NDArray[np.float32]:
 
 def _continued(values: NDArray, width: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Return continued values, each the mean of its known neighbours, and the distances from known points."""
-    known = np.isfinite(values)
-    values, ring = np.where(known, values, 0.0).astype(np.float32), np.zeros(values.shape, np.float32)
+    is_known = np.isfinite(values)
+    values, ring = np.where(is_known, values, 0.0).astype(np.float32), np.zeros(values.shape, np.float32)
     for number in range(1, width + 1):
-        count = _neighbours(known.astype(np.float32))
-        new = ~known & (count > 0.0)
+        count = _neighbours(is_known.astype(np.float32))
+        new = ~is_known & (count > 0.0)
         if not new.any():
             break
         values[new] = _neighbours(values)[new] / count[new]
         ring[new] = number
-        known |= new
-    return np.where(known, values, np.float32(np.nan)), ring
+        is_known |= new
+    return np.where(is_known, values, np.float32(np.nan)), ring
 
 
 def _neighbours(field: NDArray[np.float32]) -> NDArray[np.float32]:

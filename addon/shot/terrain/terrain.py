@@ -72,7 +72,7 @@ class Terrain:
             np.nan_to_num(_oriented(field, latitude, longitude), copy=False)
             for field in (self._relief.fuel, fuel_category.canopy(run), run.surface_fuel)
         )
-        known = apron.TerrainFields(
+        model = apron.TerrainFields(
             _ascending(latitude, height / north),
             _ascending(longitude, width / east),
             elevation,
@@ -80,11 +80,11 @@ class Terrain:
             surface,
         )
         self.cell = (
-            north * float(np.mean(np.diff(known.latitude))),
-            east * float(np.mean(np.diff(known.longitude))),
+            north * float(np.mean(np.diff(model.latitude))),
+            east * float(np.mean(np.diff(model.longitude))),
         )
         self.fields = apron.extend(
-            known,
+            model,
             self.cell,
             settings.terrain.apron,
             settings.seed,
@@ -169,9 +169,9 @@ class Terrain:
         least = burning.least_crossing(max(self.cell))
         row, column = np.nonzero(reached)
         crossing[reached] = burning.crossing(arrival, row, column, least)
-        time, crossing, known = _extrapolated(np.where(reached, arrival, 0.0), crossing, reached)
-        part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
-        burned = np.where(known & (reached | (time > end)), part, 0.0)
+        time, crossing, is_known = _extrapolated(np.where(reached, arrival, 0.0), crossing, reached)
+        part = np.clip(0.5 + (end - time) / np.where(is_known, crossing, 1.0), 0.0, 1.0)
+        burned = np.where(is_known & (reached | (time > end)), part, 0.0)
         if self.made_up:
             row, column = np.nonzero(burned)
             north, east = (
@@ -182,7 +182,7 @@ class Terrain:
             burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # unburned islands, 6 %
         inner = slice(margin, -margin or None)
         self.arrival[inner, inner][near] = np.where(reached, arrival, NEVER)
-        self.burn_time[inner, inner][near] = np.where(known, time, UNKNOWN)
+        self.burn_time[inner, inner][near] = np.where(is_known, time, UNKNOWN)
         self.burned[inner, inner][near] = burned
 
     def indices(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
@@ -372,18 +372,18 @@ def box(chosen: NDArray[np.bool_], more: int = 0) -> tuple[slice, slice] | None:
 
 
 def _extrapolated(
-    time: Array, crossing: Array, known: NDArray[np.bool_]
+    time: Array, crossing: Array, is_known: NDArray[np.bool_]
 ) -> tuple[Array, Array, NDArray[np.bool_]]:
     """Extrapolate times and crossings (s) to `_RINGS` rings of cells; also return the extended mask."""
-    time, crossing, known = time.copy(), crossing.copy(), known.copy()
+    time, crossing, is_known = time.copy(), crossing.copy(), is_known.copy()
     for _ in range(_RINGS):
-        weight = _neighbours(known.astype(np.float64))
-        grow = ~known & (weight > 0.0)
-        pace = _neighbours(crossing * known)[grow] / weight[grow]
-        time[grow] = _neighbours(time * known)[grow] / weight[grow] + pace
+        weight = _neighbours(is_known.astype(np.float64))
+        grow = ~is_known & (weight > 0.0)
+        pace = _neighbours(crossing * is_known)[grow] / weight[grow]
+        time[grow] = _neighbours(time * is_known)[grow] / weight[grow] + pace
         crossing[grow] = pace
-        known |= grow
-    return time, crossing, known
+        is_known |= grow
+    return time, crossing, is_known
 
 
 def _neighbours(field: Array) -> Array:

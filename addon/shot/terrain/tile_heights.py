@@ -151,29 +151,29 @@ class TileHeights:
 
 
 def rasterise(
-    decoded: Iterable[Decoded], known: Known = _level, buildings: Iterable[Sequence[Array]] = ()
+    decoded: Iterable[Decoded], ground_height: Known = _level, buildings: Iterable[Sequence[Array]] = ()
 ) -> Surface:
     """Rasterise the surface of tiles.
 
     Parameters
     ----------
-    known
+    ground_height
         Scene z of the known ground, m, at scene coordinates. The closer it is to the true ground, the better
         vegetation and buildings are separated from the ground.
     buildings
         Outlines of buildings, each as rings (n, 2) in scene metres.
     """
-    found = list(decoded)
-    corners = [tile.position[:, :2] + tile.origin[:2] for tile in found if len(tile.position)]
+    decoded_tiles = list(decoded)
+    corners = [tile.position[:, :2] + tile.origin[:2] for tile in decoded_tiles if len(tile.position)]
     low = np.min([each.min(axis=0) for each in corners], axis=0)
     high = np.max([each.max(axis=0) for each in corners], axis=0)
     step = max(float(np.max(high - low)) / _MOST, _FINEST)
     columns, rows = (np.ceil((high - low) / step).astype(int) + 1).tolist()
     surface = tiles.HeightMap(low.tolist(), step, rows, columns)
-    for tile in found:
+    for tile in decoded_tiles:
         surface.add(tile.position, tile.origin.tolist(), tile.triangle)
     height = surface.height
-    below = _sampled(known, low, step, (rows, columns))
+    below = _sampled(ground_height, low, step, (rows, columns))
     ground, shown = tiles.find_ground(height - below, step)
     for rings in buildings:
         if covered := rasterize.filled([(ring - low) / step + 0.5 for ring in rings], (rows, columns)):

@@ -33,7 +33,7 @@ def measure(tiles: TileHeights, settings: Settings, run: Run) -> Difference | No
     return low, median, high
 
 
-def sentence(found: Difference | None, undulation: float | None) -> str:
+def sentence(difference: Difference | None, undulation: float | None) -> str:
     """Describe a difference for the user.
 
     Parameters
@@ -41,17 +41,17 @@ def sentence(found: Difference | None, undulation: float | None) -> str:
     undulation
         Height of the geoid that was applied, m; None for a run of heights above the ellipsoid.
     """
-    if found is None:
+    if difference is None:
         return "tiles and the run do not overlap, so their heights could not be compared"
-    low, median, high = (round(each, 1) + 0.0 for each in found)
+    low, median, high = (round(each, 1) + 0.0 for each in difference)
     said = (
         f"the tiles' ground is {abs(median):.1f} m {'below' if median < 0.0 else 'above'} the scene's own "
         f"(median; {low:.1f} to {high:.1f} m in 90 % of places)"
     )
-    if abs(found[1]) <= MOST:
+    if abs(difference[1]) <= MOST:
         return said
     if undulation is None:
         return (
             f"{said}: check `vertical` in run.toml, which says that the run's heights are above the ellipsoid"
         )
-    return f"{said}: if the geoid's height is wrong, write tiles.geoid = {undulation + found[1]:.1f}"
+    return f"{said}: if the geoid's height is wrong, write tiles.geoid = {undulation + difference[1]:.1f}"

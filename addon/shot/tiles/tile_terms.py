@@ -76,14 +76,14 @@ def of_passes(names: Iterable[str]) -> list[Use]:
 
 def of_scene(settings: Settings) -> list[Use]:
     """List the uses by a scene's settings."""
-    found: list[Use] = []
+    uses: list[Use] = []
     if settings.terrain.height_source == "tiles":
-        found.append(("analyse", 'terrain.height_source = "tiles"'))
+        uses.append(("analyse", 'terrain.height_source = "tiles"'))
     if settings.tiles.vegetation != "tileset":
-        found.append(("flatten", f'tiles.vegetation = "{settings.tiles.vegetation}" (write "tileset")'))
+        uses.append(("flatten", f'tiles.vegetation = "{settings.tiles.vegetation}" (write "tileset")'))
     if settings.labels.enabled:
-        found.append(("other_geocoder", "labels.enabled = true"))
-    return found
+        uses.append(("other_geocoder", "labels.enabled = true"))
+    return uses
 
 
 def _error(settings: Settings, number: int, reason: str) -> InputError:

@@ -58,24 +58,24 @@ def find_columns(path: Path, columns: Iterable[str], given: Mapping[str, str]) -
     for name in named:
         if name not in private:
             plain.setdefault(_simplify(name), name)
-    found = {}
+    column_of = {}
     for meaning, spellings in _SPELLINGS.items():
         spelling = next((each for each in spellings.split() if each in plain), None)
         if spelling is not None:
-            found[meaning] = plain[spelling]
-    if "name" not in found:
+            column_of[meaning] = plain[spelling]
+    if "name" not in column_of:
         others = [name for key, name in plain.items() if "name" in key and not _NOT_A_STATION.search(key)]
-        found.update(zip(("name",), others, strict=False))
+        column_of.update(zip(("name",), others, strict=False))
     for meaning, wanted in given.items():
         match = next((name for name in named if name.strip().lower() == wanted.strip().lower()), None)
         if match is None or match in private:
             why = "is not read, as it has persons or telephone numbers" if match else "does not exist"
             raise input_error(path, f"column {wanted} {why}; the columns are {format_columns(named)}")
-        found[meaning] = match
-    return found
+        column_of[meaning] = match
+    return column_of
 
 
-def check_needed(path: Path, columns: Iterable[str], found: Mapping[str, str], position: bool) -> None:
+def check_needed(path: Path, columns: Iterable[str], column_of: Mapping[str, str], position: bool) -> None:
     """Check that a file has columns for the name or number, and for the position if it is a table.
 
     Raises
@@ -83,10 +83,10 @@ def check_needed(path: Path, columns: Iterable[str], found: Mapping[str, str], p
     InputError
         A column is missing; the message lists the columns of the file.
     """
-    missing = [] if "name" in found or "source_id" in found else ["name"]
-    if position and not has_position(found):
+    missing = [] if "name" in column_of or "source_id" in column_of else ["name"]
+    if position and not has_position(column_of):
         missing += [
-            one for one, other in (("latitude", "y"), ("longitude", "x")) if not {one, other} & set(found)
+            one for one, other in (("latitude", "y"), ("longitude", "x")) if not {one, other} & set(column_of)
         ]
         missing = missing if len(missing) > ("name" in missing) else [*missing, "latitude", "longitude"]
     if missing:

@@ -18,7 +18,7 @@ def make_draft(
     path: Path,
     batch: Batch,
     value: Callable[[str], Any],
-    found: Mapping[str, str],
+    column_of: Mapping[str, str],
     place: str,
 ) -> Draft:
     """Make a station from the values of a row by meaning, and collect the newest date of the batch.
@@ -30,7 +30,7 @@ def make_draft(
     """
 
     def text(meaning: str) -> str:
-        each = value(found[meaning]) if meaning in found else None
+        each = value(column_of[meaning]) if meaning in column_of else None
         plain = " ".join(str(each if each is not None else "").split())
         return "" if plain.lower() in _NOTHING else plain
 
@@ -39,8 +39,8 @@ def make_draft(
         reason = f'has origin "{origin}"; use one of {", ".join(ORIGINS)}'
         raise input_error(path, f"{place} {reason}")
     kind, number = text("kind"), text("source_id").removesuffix(".0")
-    if "date" in found:
-        batch.retrieved = max(batch.retrieved, days.parse_day(value(found["date"])))
+    if "date" in column_of:
+        batch.retrieved = max(batch.retrieved, days.parse_day(value(column_of["date"])))
     return Draft(
         text("name"), 0.0, 0.0, kind=KIND if kind.isdecimal() or not kind else kind, agency=text("agency"),
         address=", ".join(filter(None, map(text, ("address", "city", "state", "zip")))),

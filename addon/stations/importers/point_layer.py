@@ -45,17 +45,19 @@ def read(path: Path, options: ImportOptions = USUAL) -> Batch:
     features = (geopackage if binary else geojson).read(path, options.crs)
     columns = list(dict.fromkeys(str(name) for each in features for name in each.properties))
     columns = [name for name in columns if not (binary and name == "layer")]
-    found = column_names.find_columns(path, columns, options.columns)
-    column_names.check_needed(path, columns, found, position=False)
+    column_of = column_names.find_columns(path, columns, options.columns)
+    column_names.check_needed(path, columns, column_of, position=False)
     batch = Batch(name=path.stem, dropped=import_rows.private_columns(columns))
     if binary:
         batch.retrieved = _last_change(path)
     for feature in features:
-        draft = drafts.make_draft(path, batch, feature.properties.get, found, feature.place)
+        draft = drafts.make_draft(path, batch, feature.properties.get, column_of, feature.place)
         x, y = _middle(feature)
         import_rows.add(batch, y, x, draft)
     used = {
-        meaning: name for meaning, name in found.items() if meaning not in ("x", "y", "latitude", "longitude")
+        meaning: name
+        for meaning, name in column_of.items()
+        if meaning not in ("x", "y", "latitude", "longitude")
     }
     batch.notes += drafts.describe_columns(used)
     return batch

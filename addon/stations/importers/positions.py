@@ -41,16 +41,16 @@ def add_rows(path: Path, batch: Batch, rows: Sequence[Row], crs: str) -> None:
         The reference system is unknown.
     """
     numbers = [_numbers(row) for row in rows]
-    known = [each for each in numbers if each is not None]
-    beyond = [each for each in known if not _is_degrees(*each)]
-    if 2 * len(beyond) <= len(known):
+    pairs = [each for each in numbers if each is not None]
+    beyond = [each for each in pairs if not _is_degrees(*each)]
+    if 2 * len(beyond) <= len(pairs):
         for row in rows:
             import_rows.add(batch, row.y, row.x, row.draft)
         return
     system = crs or _guess(path, beyond)
     if not crs:
         batch.notes.append(f"coordinates are read as Web Mercator ({WEB_MERCATOR}) for their size; see --crs")
-    degrees = iter(to_degrees(path, system, np.array(known)).tolist())
+    degrees = iter(to_degrees(path, system, np.array(pairs)).tolist())
     for row, each in zip(rows, numbers, strict=True):
         longitude, latitude = (None, None) if each is None else next(degrees)
         import_rows.add(batch, latitude, longitude, row.draft)

@@ -28,16 +28,18 @@ def read(path: Path, options: ImportOptions = USUAL) -> Batch:
         A column is missing, or the reference system is unknown.
     """
     header = list(tables.read_header(path).values())
-    found = column_names.find_columns(path, header, options.columns)
-    column_names.check_needed(path, header, found, position=True)
+    column_of = column_names.find_columns(path, header, options.columns)
+    column_names.check_needed(path, header, column_of, position=True)
     batch = Batch(name=path.stem, dropped=import_rows.private_columns(header))
-    in_degrees = {"latitude", "longitude"} <= set(found)
+    in_degrees = {"latitude", "longitude"} <= set(column_of)
     if in_degrees and not {"x", "y"} & set(options.columns):
-        found = {meaning: name for meaning, name in found.items() if meaning not in ("x", "y")}
-        x, y = found["longitude"], found["latitude"]
+        column_of = {meaning: name for meaning, name in column_of.items() if meaning not in ("x", "y")}
+        x, y = column_of["longitude"], column_of["latitude"]
     else:
-        found = {meaning: name for meaning, name in found.items() if meaning not in ("latitude", "longitude")}
-        x, y = found["x"], found["y"]
+        column_of = {
+            meaning: name for meaning, name in column_of.items() if meaning not in ("latitude", "longitude")
+        }
+        x, y = column_of["x"], column_of["y"]
     rows = []
     try:
         with path.open(encoding="utf-8-sig", newline=None) as file:
@@ -49,10 +51,10 @@ def read(path: Path, options: ImportOptions = USUAL) -> Batch:
                 if any(each.strip() for each in values):
                     row = dict(zip(names, values, strict=False))
                     line = reader.line_num + 1
-                    draft = drafts.make_draft(path, batch, row.get, found, f"line {line}")
+                    draft = drafts.make_draft(path, batch, row.get, column_of, f"line {line}")
                     rows.append(positions.Row(row.get(x), row.get(y), draft))
     except csv.Error as error:
         raise input_error(path, f"not a CSV file: {error}") from None
     positions.add_rows(path, batch, rows, options.crs)
-    batch.notes += drafts.describe_columns(found)
+    batch.notes += drafts.describe_columns(column_of)
     return batch

@@ -93,16 +93,16 @@ class TileServer:
 
     def best_available(self, level: int, column: int, row: int) -> Pixels | None:
         """Return a tile, or the enlarged part of the next coarser available tile; None without any."""
-        found = self.tile(level, column, row)
+        pixels = self.tile(level, column, row)
         for up in range(1, level - self.address.lowest + 1):
-            if found is not None:
+            if pixels is not None:
                 break
             coarse = self.tile(level - up, column >> up, row >> up)
-            found = None if coarse is None else _enlarge_part(coarse, up, column, row)
-        self._consecutive_misses = 0 if found is not None else self._consecutive_misses + 1
+            pixels = None if coarse is None else _enlarge_part(coarse, up, column, row)
+        self._consecutive_misses = 0 if pixels is not None else self._consecutive_misses + 1
         if self._consecutive_misses == _MAX_MISSES and not self.side:
             raise self._no_tile_error()
-        return found
+        return pixels
 
     def tile(self, level: int, column: int, row: int) -> Pixels | None:
         """Return the pixels of a tile (side, side, 4); None if it is missing."""

@@ -87,7 +87,7 @@ def _levels(matrices: Element) -> dict[int, str] | None:
     """List matrices by level; None if any is not of WebMercatorQuad."""
     if not _text(matrices, "./{*}SupportedCRS").endswith(_CODES):
         return None
-    found: dict[int, str] = {}
+    identifiers: dict[int, str] = {}
     for each in matrices.findall("./{*}TileMatrix"):
         scale, side = (finite(_text(each, f"./{{*}}{key}")) for key in ("ScaleDenominator", "TileWidth"))
         corner = [finite(part) for part in _text(each, "./{*}TopLeftCorner").split()]
@@ -99,8 +99,8 @@ def _levels(matrices: Element) -> dict[int, str] | None:
         if not square or abs(level - round(level)) > _NEAR or abs(x - 1.0) > _NEAR or abs(y - 1.0) > _NEAR:
             return None
         if 0 <= round(level) <= DEEPEST:
-            found[round(level)] = _text(each, "./{*}Identifier")
-    return found
+            identifiers[round(level)] = _text(each, "./{*}Identifier")
+    return identifiers
 
 
 def _template(layer: Element, name: str, matrices: str, operation: str, url: str) -> str:

@@ -135,17 +135,17 @@ class Buffer:
         if normalized:
             values = np.round(values * np.iinfo(_TYPES[kind]).max)
         stored = values.astype(_TYPES[kind])
-        found = {
+        accessor = {
             "bufferView": self.view(stored.tobytes(), target),
             "componentType": kind,
             "count": len(stored),
             "type": shape,
         }
         if bounds:
-            found |= {"min": stored.min(axis=0).tolist(), "max": stored.max(axis=0).tolist()}
+            accessor |= {"min": stored.min(axis=0).tolist(), "max": stored.max(axis=0).tolist()}
         if normalized:
-            found["normalized"] = True
-        self._accessors.append(found)
+            accessor["normalized"] = True
+        self._accessors.append(accessor)
         return len(self._accessors) - 1
 
     def about(self) -> dict[str, Any]:

@@ -175,7 +175,7 @@ class Maker:
 
 def _group_by_leaf(lattice: Lattice, buildings: Sequence[Building]) -> dict[tuple[int, int], list[Building]]:
     """Group buildings by row and column of the leaf that contains their middle; others are omitted."""
-    found: dict[tuple[int, int], list[Building]] = {}
+    groups: dict[tuple[int, int], list[Building]] = {}
     borders = [
         axis[::cells]
         for axis, cells in zip((lattice.latitude, lattice.longitude), lattice.cells, strict=True)
@@ -186,8 +186,8 @@ def _group_by_leaf(lattice: Lattice, buildings: Sequence[Building]) -> dict[tupl
             for border, at in zip(borders, reversed(each.middle), strict=True)
         )
         if 0 <= row < len(borders[0]) - 1 and 0 <= column < len(borders[1]) - 1:
-            found.setdefault((row, column), []).append(each)
-    return found
+            groups.setdefault((row, column), []).append(each)
+    return groups
 
 
 def _diagonal(lattice: Lattice) -> float:

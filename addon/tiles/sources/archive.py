@@ -88,7 +88,7 @@ class Archive(Source):
         members = self._zip.infolist()
         if len(members) > _MOST_MEMBERS:
             raise input_error(self.path, f"has more than {_MOST_MEMBERS:,} members")
-        found: dict[str, zipfile.ZipInfo] = {}
+        infos: dict[str, zipfile.ZipInfo] = {}
         for member in members:
             name = member.filename
             if name and member.is_dir():
@@ -102,7 +102,7 @@ class Archive(Source):
             # orig_filename: zipfile itself cuts names at a NUL and turns the system's separators.
             if not plain or any(c in member.orig_filename for c in "\\:\0"):
                 raise input_error(self.path, f"the member {member.orig_filename[:200]!r} leaves the archive")
-            if name in found:
+            if name in infos:
                 raise input_error(self.path, f"the member {name[:200]!r} is there twice")
-            found[name] = member
-        return found
+            infos[name] = member
+        return infos

@@ -302,15 +302,15 @@ class Http(Source):
             response = self._ask(url, None, MAX_BYTES, "")
             if response.status != 200:
                 raise self._denied_error(url, response, True)
-            found = [
+            documents = [
                 secret.split(urljoin(url, each))
                 for each in contents.references(parse(response.body, self.name(url)).value)
             ]
-            for _, secrets in found:
+            for _, secrets in documents:
                 self.redactor.add(*secrets.values())
                 if secrets.get(parameter, old) != old:
                     return secrets[parameter]
-            url = next((each for each, _ in found if contents.kind_by_name(each) == "json"), url)
+            url = next((each for each, _ in documents if contents.kind_by_name(each) == "json"), url)
             self._check_origin(url, self.name(self.root))
         raise input_error(self.name(self.root), "names no new session; try again later")
 

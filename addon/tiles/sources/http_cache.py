@@ -167,7 +167,7 @@ class HttpCache:
         return Answer(body, etag, modified, expires, bool(strict))
 
     def _put(
-        self, data: Database, url: str, body: bytes, headers: Mapping[str, str], found: Rules, now: float
+        self, data: Database, url: str, body: bytes, headers: Mapping[str, str], rules: Rules, now: float
     ) -> None:
         key = _key(url)
         name = f"{key[:2]}/{key[2:18]}-{uuid.uuid4().hex[:12]}"
@@ -175,7 +175,7 @@ class HttpCache:
         values = (
             *(key, url, name, len(body), hashlib.sha256(body).hexdigest()),
             *(headers.get("ETag", ""), headers.get("Last-Modified", "")),
-            *(found.expires, int(found.strict), now),
+            *(rules.expires, int(rules.strict), now),
         )
         try:
             self._replace(data, key, values)

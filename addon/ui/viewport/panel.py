@@ -86,20 +86,23 @@ class FIRETWIN_PT_viewport(SidebarPanel, bpy.types.Panel):
         layout.prop(scene.firetwin, "viewport_overlay")
 
 
-def _draw_cost(layout: bpy.types.UILayout, known: facts.Facts) -> None:
+def _draw_cost(layout: bpy.types.UILayout, scene_facts: facts.Facts) -> None:
     """Draw a table of the measured cost: a column for the film scene and one for the live scene."""
-    if not known.cost:
+    if not scene_facts.cost:
         return
     table = layout.column(align=True)
-    shown = sorted(known.cost)
+    shown = sorted(scene_facts.cost)
     _draw_row(table, "", ["Live" if live else "Film" for live in shown])
     for name, text in _ROWS.items():
-        _draw_row(table, name, [text(known.cost[live]) for live in shown])
-    times = [f"{1000.0 * known.seconds[live]:.1f} ms" if live in known.seconds else "-" for live in shown]
+        _draw_row(table, name, [text(scene_facts.cost[live]) for live in shown])
+    times = [
+        f"{1000.0 * scene_facts.seconds[live]:.1f} ms" if live in scene_facts.seconds else "-"
+        for live in shown
+    ]
     _draw_row(table, "Frame", times)
-    if True in known.cost:
+    if True in scene_facts.cost:
         table.label(text=f"Budget: {build.TRIANGLES:,} triangles", icon="INFO")
-    if any(frame_clock.is_slow(seconds) for seconds in known.seconds.values()):
+    if any(frame_clock.is_slow(seconds) for seconds in scene_facts.seconds.values()):
         needed = f"{frame_clock.HEADSET:.0f} Hz needs {1000.0 / frame_clock.HEADSET:.1f} ms"
         table.label(text=needed, icon="INFO")
 

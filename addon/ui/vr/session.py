@@ -71,13 +71,13 @@ def is_running() -> bool:
 def stand(context: bpy.types.Context, name: str) -> bool:
     """Place the viewer at a landmark; False: no such place."""
     scene, manager = context.scene, context.window_manager
-    found = landmark_list.pose(scene, name)
-    if found is None:
+    pose = landmark_list.pose(scene, name)
+    if pose is None:
         return False
     settings = manager.xr_session_settings
     settings.base_pose_type = "CUSTOM"
-    settings.base_pose_location = eyes(scene, found.place)
-    settings.base_pose_angle = found.angle
+    settings.base_pose_location = eyes(scene, pose.place)
+    settings.base_pose_angle = pose.angle
     scene.firetwin.vr_landmark = name
     if manager.xr_session_state is not None and is_running():
         manager.xr_session_state.reset_to_base_pose(context)

@@ -109,7 +109,7 @@ def test_python_may_not_say_is_no_x_at_any_rate(tmp_path, monkeypatch, capsys):
 
 
 NAMES = """\
-class Here:
+class ShotBiome:
     pass
 
 
@@ -137,7 +137,7 @@ def test_names_that_live_long_and_definitions_count_up_to_the_ceiling(
     monkeypatch.setattr(report, "ROOT", tmp_path)
     monkeypatch.setattr(names, "CEILINGS", {"addon": ceiling})
     monkeypatch.setattr(sys, "argv", ["prose", "addon"])
-    assert [(name.line, name.name) for name in names.count(tmp_path)["addon"]] == [(1, "Here"), (5, "found")]
+    assert [(name.line, name.name) for name in names.count(tmp_path)["addon"]] == [(1, "ShotBiome"), (5, "found")]
     assert report.main() == status
     assert ("2 names" in capsys.readouterr().err) == bool(status)
 

@@ -24,12 +24,12 @@ from ._biome import Biome, Colour, Land, OpenLand, Plants, Season, Species
 __all__ = [
     "Biome",
     "Colour",
-    "Here",
     "Land",
     "LeafState",
     "OpenLand",
     "Plants",
     "Season",
+    "ShotBiome",
     "Species",
     "chosen",
     "known",
@@ -46,7 +46,7 @@ _CHOSEN: WeakKeyDictionary[Run, str] = WeakKeyDictionary()
 
 
 @dataclass(frozen=True)
-class Here:
+class ShotBiome:
     """A shot's biome, as set.
 
     Attributes
@@ -72,7 +72,7 @@ def known() -> dict[str, Biome]:
 
 
 @cached_on_shot
-def choose(shot: Shot) -> Here:
+def choose(shot: Shot) -> ShotBiome:
     """Select the biome of a shot: the one in the settings, or the best match for the run's land.
 
     Grass that burns is cured: the date alone decides its greenness only in a run without fire.
@@ -91,7 +91,7 @@ def choose(shot: Shot) -> Here:
     green = season if forest.greenness is None else forest.greenness
     if forest.greenness is None and season > _CURED:
         green = min(season, _greenest(shot))
-    return Here(name, biome, green, leaves)
+    return ShotBiome(name, biome, green, leaves)
 
 
 def _greenest(shot: Shot) -> float:

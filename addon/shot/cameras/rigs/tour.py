@@ -161,7 +161,7 @@ class Tour(Lens):
 
     def _tracks(self, filming: Filming, ground: Terrain) -> Array:
         """Points on the ground (stops, frames, 3) of the places in every frame; only the head moves."""
-        known, times = self._known(filming.run), filming.frames.times
+        stop_times, times = self._known(filming.run), filming.frames.times
         tracks = []
         for stop in self.stops:
             name = stop.place.casefold()
@@ -171,7 +171,7 @@ class Tour(Lens):
             if name == IGNITION:
                 point = ground.point(*ground.geodetic(*targets.ignition(ground)))
             else:
-                at = known.get(name, stop)
+                at = stop_times.get(name, stop)
                 point = ground.point(at.latitude or 0.0, at.longitude or 0.0)
             tracks.append(np.repeat(point, len(times), axis=0))
         return np.array(tracks)
