@@ -52,23 +52,23 @@ def _words(names: str) -> list[str]:
 @functools.cache
 def imports(path: Path) -> frozenset[str]:
     """Find the full names of modules and members that a file imports, directly or by a test helper."""
-    found = set()
+    names = set()
     if path == ROOT / "addon/cli.py":  # it scans for them
         commands = (ROOT / "addon").glob("*/command.py"), (ROOT / "addon/commands").glob("*.py")
-        found |= {".".join(module(each)) for each in itertools.chain(*commands)}
+        names |= {".".join(module(each)) for each in itertools.chain(*commands)}
     package = module(path) if path.name == "__init__.py" else module(path)[:-1]
     for match in IMPORT.finditer(path.read_text(encoding="utf-8")):
         if match["modules"]:
-            found |= set(_words(match["modules"]))
+            names |= set(_words(match["modules"]))
         else:
             level = len(match["dots"])
             above = package[: len(package) - level + 1] if level else ()
             name = ".".join((*above, *([match["origin"]] if match["origin"] else [])))
-            found |= {name, *(f"{name}.{each}" for each in _words(match["members"]))}
-    for helper in [ROOT / "tests/helpers" / f"{name}.py" for name in found if "." not in name]:
+            names |= {name, *(f"{name}.{each}" for each in _words(match["members"]))}
+    for helper in [ROOT / "tests/helpers" / f"{name}.py" for name in names if "." not in name]:
         if helper.exists() and helper != path:
-            found |= imports(helper)
-    return frozenset(found)
+            names |= imports(helper)
+    return frozenset(names)
 
 
 @functools.cache

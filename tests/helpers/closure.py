@@ -88,17 +88,17 @@ def domains(shot: Shot, levels: int = 9) -> list[Domain]:
     sources = shot.fire.sources(shot.frames.middle)
     middle = np.average(sources.position[:, :2], axis=0, weights=sources.power)
     top = tuple(float(z) for z in np.linspace(0.0, 1800.0, levels + 1))
-    made: list[Domain] = []
+    nested: list[Domain] = []
     for count, cell, shift in ((40, CELL, 0.0), (27, CELL / 3, 100.0)):
         corner = np.round((middle + shift) / CELL) * CELL - 0.5 * count * cell
         box = Box(top, (count, count), cell, (float(corner[0]), float(corner[1])))
         x, y = box.middles()
         ground = shot.bare_ground.up(np.tile(x, count), np.repeat(y, count)).reshape(count, count)
-        mean = made[0].mean if made else float(ground.mean())
-        folder = shot.settings.cache / f"domain_{len(made)}"
+        mean = nested[0].mean if nested else float(ground.mean())
+        folder = shot.settings.cache / f"domain_{len(nested)}"
         folder.mkdir(parents=True, exist_ok=True)
-        made.append(Domain(box, ground, mean, top[-1], folder, shot.scale))
-    return made
+        nested.append(Domain(box, ground, mean, top[-1], folder, shot.scale))
+    return nested
 
 
 def airborne(domain: Domain, moment: snapshots.Snapshot) -> float:

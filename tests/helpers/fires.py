@@ -44,7 +44,7 @@ def closed(ring):
 
 def geojson(path: Path, *features, **members):
     """Write (rings, properties) as a FeatureCollection."""
-    made = [
+    rows = [
         {
             "type": "Feature",
             "properties": properties,
@@ -52,5 +52,5 @@ def geojson(path: Path, *features, **members):
         }
         for rings, properties in features
     ]
-    path.write_text(json.dumps({"type": "FeatureCollection", "features": made} | members))
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": rows} | members))
     return path

@@ -96,7 +96,7 @@ def sample(folder: Path, index: int, place: str) -> Truth:
         Image.fromarray(pixels).save(folder / written[kind])
     moment = datetime(2014, 9, 17, 20, tzinfo=UTC) + timedelta(minutes=7 * index)
     kind = "fire" if listed else ("cloud", "before_ignition")[index % 2]
-    made = Truth(
+    truth = Truth(
         index=index,
         camera=camera(index),
         utc=moment.isoformat(),
@@ -109,8 +109,8 @@ def sample(folder: Path, index: int, place: str) -> Truth:
         source={"run": place, "licence": "CC0-1.0"},
         files=written,
     )
-    truths.write(folder, made)
-    return made
+    truths.write(folder, truth)
+    return truth
 
 
 def data_set(folder: Path, count: int = 9) -> list[Truth]:

@@ -36,7 +36,7 @@ def wrf(
     if ideal:
         lat, lon = y, x
     junk = (j >= NY * SR) | (i >= NX * SR)
-    made, groups = [], [times[k : k + per_file] for k in range(0, len(times), per_file)]
+    paths, groups = [], [times[k : k + per_file] for k in range(0, len(times), per_file)]
     truth = {
         "FIRE_AREA": [],
         "FGRNHFX": [],
@@ -129,12 +129,12 @@ def wrf(
                     ("V10", v10), ("T", theta), ("PB", base.astype(np.float32)), ("tr17_1", smoke),
                 ):  # fmt: skip
                     truth[name].append(value)
-        made.append(path)
+        paths.append(path)
     truth |= {
         "lat": lat[: NY * SR, : NX * SR], "lon": lon[: NY * SR, : NX * SR],
         "x": x[: NY * SR, : NX * SR], **fixed,
     }  # fmt: skip
-    return made, truth
+    return paths, truth
 
 
 def cfbm(folder, *, count=4, step=30, shape=(20, 30), cell=10.0, turn=0.0, seed=2):

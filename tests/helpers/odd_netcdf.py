@@ -69,9 +69,9 @@ def _variable(new, old, sizes, way, rng):
         if kind == old.dtype
         else attributes.pop("_FillValue", None) and None
     )
-    made = new.createVariable(old.name, kind, dimensions, fill_value=fill)
-    made.set_auto_maskandscale(False)
-    made.setncatts(_odd(attributes, rng) if way == "attribute" else attributes)
+    variable = new.createVariable(old.name, kind, dimensions, fill_value=fill)
+    variable.set_auto_maskandscale(False)
+    variable.setncatts(_odd(attributes, rng) if way == "attribute" else attributes)
     shape = tuple(sizes[dimension] or 0 for dimension in dimensions)
     if 0 in shape:
         return
@@ -80,11 +80,11 @@ def _variable(new, old, sizes, way, rng):
         values.flat[rng.integers(0, values.size, 3)] = rng.choice(FILLS)
     with np.errstate(all="ignore"):
         if kind.kind == "S":
-            made[...] = np.full(shape, b"q") if old.dtype != kind else values
+            variable[...] = np.full(shape, b"q") if old.dtype != kind else values
         elif old.dtype.kind == "S":
-            made[...] = np.ones(shape, kind)
+            variable[...] = np.ones(shape, kind)
         else:
-            made[...] = (
+            variable[...] = (
                 np.full(shape, rng.choice(FILLS)).astype(kind) if way == "filled" else values.astype(kind)
             )
 

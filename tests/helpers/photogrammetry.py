@@ -52,22 +52,22 @@ def scene(up, middle, half, off=0.0, spacing=14.0, seed=4):
     return Scene(east, north, ground, np.where(roof, height, ground + growth), roof, growth * ~roof)
 
 
-def write(folder, frame, made, undulation=lambda latitude, longitude: 0.0):
+def write(folder, frame, surface, undulation=lambda latitude, longitude: 0.0):
     """Write a scene as a tileset of one tile; `undulation` is the geoid's height, m, at places in degrees."""
     folder.mkdir(parents=True)
-    local = np.stack([made.east, made.north, made.height], axis=-1).reshape(-1, 3)
+    local = np.stack([surface.east, surface.north, surface.height], axis=-1).reshape(-1, 3)
     latitude, longitude, height = frame.reverse(local)
     place = ecef(np.radians(latitude), np.radians(longitude), height + undulation(latitude, longitude))
     origin = np.round(place.mean(axis=0))
-    rows, columns = made.east.shape
+    rows, columns = surface.east.shape
     number = np.arange(rows * columns).reshape(rows, columns)
     low, right, top, far = (
         part.ravel() for part in (number[:-1, :-1], number[:-1, 1:], number[1:, :-1], number[1:, 1:])
     )
     triangles = np.vstack([np.column_stack([low, right, top]), np.column_stack([right, far, top])])
     v, u = np.meshgrid(np.linspace(1, 0, rows), np.linspace(0, 1, columns), indexing="ij")
-    colour = np.where(made.growth[..., None] > 0.5, (40, 62, 30), (128, 112, 84))
-    colour = np.where(made.roof[..., None], (150, 60, 48), colour).astype(np.uint8)
+    colour = np.where(surface.growth[..., None] > 0.5, (40, 62, 30), (128, 112, 84))
+    colour = np.where(surface.roof[..., None], (150, 60, 48), colour).astype(np.uint8)
     Image.fromarray(colour[::-1]).save(folder / "picture.jpg", quality=92)
     mesh = glb.Mesh(
         origin=origin,

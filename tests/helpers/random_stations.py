@@ -15,7 +15,7 @@ def random_stations(seed: int, stations: int = 6, resources: int = 10, gaps: flo
     """Stations around `CENTRE` with resources, each number of which is unknown with probability `gaps`."""
     rng = np.random.default_rng(seed)
     types = standard_types()
-    made = [
+    bases = [
         Station(
             7 + 3 * k,
             f"Station {k}",
@@ -31,10 +31,10 @@ def random_stations(seed: int, stations: int = 6, resources: int = 10, gaps: flo
         steps = int(rng.integers(round(low / step), round(high / step) + 1))
         return None if rng.random() < gaps else steps * step
 
-    found = [
+    resources_ = [
         Resource(
             id=int(k),
-            station=made[rng.integers(stations)].id,
+            station=bases[rng.integers(stations)].id,
             type=types[rng.integers(len(types))].code,
             name=f"Resource {k}",
             origin="exercise",
@@ -59,8 +59,8 @@ def random_stations(seed: int, stations: int = 6, resources: int = 10, gaps: flo
             NOON + timedelta(hours=int(rng.integers(0, 6))),
             STATUSES[rng.integers(2)],
         )
-        for each in found
+        for each in resources_
         for _ in range(rng.integers(0, 3))
     ]
     source = Source(1, "tests", "none", "2014-09-13")
-    return StationFile(tuple(made), tuple(found), tuple(windows), (source,), types)
+    return StationFile(tuple(bases), tuple(resources_), tuple(windows), (source,), types)

@@ -19,14 +19,14 @@ def write_tiff(path, values, *, projection="EPSG:32610", step=10.0, box=None, un
     transform = rasterio.transform.from_origin(left, high, step, step)
     x, y = np.meshgrid(left + (np.arange(size[0]) + 0.5) * step, high - (np.arange(size[1]) + 0.5) * step)
     longitude, latitude = warp.transform(projection, "EPSG:4326", x.ravel(), y.ravel())
-    made = np.asarray(values(np.array(latitude).reshape(x.shape), np.array(longitude).reshape(x.shape)))
-    made = made.reshape(-1, *x.shape)
+    bands = np.asarray(values(np.array(latitude).reshape(x.shape), np.array(longitude).reshape(x.shape)))
+    bands = bands.reshape(-1, *x.shape)
     kind = more.pop("dtype", "float32")
     with rasterio.open(
-        path, "w", driver="GTiff", width=size[0], height=size[1], count=len(made), dtype=kind,
+        path, "w", driver="GTiff", width=size[0], height=size[1], count=len(bands), dtype=kind,
         crs=more.pop("crs", projection), transform=more.pop("transform", transform), **more,
     ) as file:  # fmt: skip
-        file.write(made.astype(kind))
+        file.write(bands.astype(kind))
         if unit:
-            file.units = [unit] * len(made)
+            file.units = [unit] * len(bands)
     return path

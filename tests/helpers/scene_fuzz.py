@@ -151,8 +151,8 @@ def _places(kind, values, where=()):
 def values(draw, part):
     """Strategy for a value of a key: inside, at and outside of its bounds, of other types, hostile."""
     way = draw(st.integers(0, 9))
-    known, listed = part.key, typing.get_origin(part.type) is tuple
-    bounds = [each for each in (known.at_least, known.above, known.at_most) if each is not None]
+    key, listed = part.key, typing.get_origin(part.type) is tuple
+    bounds = [each for each in (key.at_least, key.above, key.at_most) if each is not None]
     if way < 5 and bounds:
         bound = draw(st.sampled_from(bounds))
         near = [
@@ -164,8 +164,8 @@ def values(draw, part):
         ]
         value = draw(st.sampled_from(near))
         value = int(value) if part.type is int else value
-    elif way < 7 and known.names():
-        value = draw(st.sampled_from(sorted(known.names())))
+    elif way < 7 and key.names():
+        value = draw(st.sampled_from(sorted(key.names())))
     elif way < 7 and part.type is datetime.datetime:
         return _Raw(draw(st.sampled_from(MOMENTS)))
     elif way < 7 and part.type is bool:
@@ -197,15 +197,15 @@ def scenes(draw, kind=None):
         put = draw(values(part))
         with contextlib.suppress(KeyError, TypeError, IndexError, AttributeError):
             _put(tables, where, put)
-    found = "\n".join(f"{name} = {written(value)}" for name, value in tables.items()) + "\n"
+    text = "\n".join(f"{name} = {written(value)}" for name, value in tables.items()) + "\n"
     if draw(st.integers(0, 19)) == 0:
-        at = draw(st.integers(0, len(found)))
-        found = (
-            found[:at]
+        at = draw(st.integers(0, len(text)))
+        text = (
+            text[:at]
             + draw(st.sampled_from(("", '"', "]", "\0", "\x1b", '"\\u001b" = 1\n')))
-            + found[at + 1 :]
+            + text[at + 1 :]
         )
-    return found
+    return text
 
 
 def _put(tables, where, value):

@@ -54,7 +54,7 @@ def briefed(path: Path, places: Sequence[tuple[str, float, float]], origin: str 
         )
         for k, (name, latitude, longitude) in enumerate(places, 1)
     ]  # fmt: skip
-    found = [
+    resources = [
         resource(
             10 * row.id + k, row.id, type_, 2, 60.0, 5.0, name=f"{name}-{row.id}",
             cost_hour=210.0, currency="USD", night=True, note="made up",
@@ -62,4 +62,4 @@ def briefed(path: Path, places: Sequence[tuple[str, float, float]], origin: str 
         for row in rows[::2]
         for k, (type_, name) in enumerate((("engine/3", "E-31"), ("crew/IHC", "C-2")))
     ]  # fmt: skip
-    return put(path, rows, found, [Availability(each.id, *DAYS, area="Local") for each in found])
+    return put(path, rows, resources, [Availability(each.id, *DAYS, area="Local") for each in resources])

@@ -37,14 +37,14 @@ class Gltf:
         """Add an accessor of rows, with a new view if none is given."""
         array = np.asarray(array)
         width = 1 if array.ndim == 1 else array.shape[1]
-        made = {
+        accessor_ = {
             "bufferView": self.view(array.tobytes()) if view is None else view,
             "componentType": COMPONENT[array.dtype.str[1:]],
             "count": len(array),
             "type": TYPE[width],
             **more,
         }
-        return self.add("accessors", made | ({"normalized": True} if normalized else {}))
+        return self.add("accessors", accessor_ | ({"normalized": True} if normalized else {}))
 
     def mesh(self, *primitives):
         return self.add("meshes", {"primitives": list(primitives)})
@@ -52,15 +52,15 @@ class Gltf:
     def primitive(self, position=SQUARE, triangles=SQUARE_TRIANGLES, attributes=None, **more):
         """A primitive of arrays; attributes that are numbers are accessors already."""
         named = {"POSITION": position, **(attributes or {})}
-        made = {
+        primitive_ = {
             "attributes": {k: v if isinstance(v, int) else self.accessor(v) for k, v in named.items()},
             **more,
         }
         if triangles is not None:
-            made["indices"] = self.accessor(
+            primitive_["indices"] = self.accessor(
                 np.asarray(triangles, getattr(triangles, "dtype", "u2")).reshape(-1)
             )
-        return made
+        return primitive_
 
     def node(self, mesh=None, **more):
         return self.add("nodes", ({} if mesh is None else {"mesh": mesh}) | more)

@@ -46,13 +46,13 @@ def view_set(views):
 
 def planes(half, parallel):
     """Inward normals (5, 3) of a view's planes in its own axes, and how far they lie behind the camera."""
-    found = [((0.0, 0.0, -1.0), 0.0)]
+    half_spaces = [((0.0, 0.0, -1.0), 0.0)]
     for axis in range(2):
         for sign in (1.0, -1.0):
             normal = np.array([0.0, 0.0, 0.0 if parallel else -half[axis]])
             normal[axis] = sign
-            found.append((normal / np.linalg.norm(normal), half[axis] if parallel else 0.0))
-    return np.array([normal for normal, _ in found]), np.array([offset for _, offset in found])
+            half_spaces.append((normal / np.linalg.norm(normal), half[axis] if parallel else 0.0))
+    return np.array([normal for normal, _ in half_spaces]), np.array([offset for _, offset in half_spaces])
 
 
 def outside(place, normal, offset):

@@ -42,14 +42,14 @@ def path(settings):
     """A scene file whose drone zooms out, banks, and has another sensor."""
     (drone,) = settings.cameras
     rig = replace(drone.rig, bank=1.0, focal_length=21.0, sensor_width=13.2)
-    made = replace(
+    flown = replace(
         settings,
         cameras=(replace(drone, rig=rig),),
         time=replace(settings.time, frames=FRAMES, fps=23.976),
         tiles=replace(settings.tiles, geoid=-24.5),
     )
-    made.path.write_text(scene_file.text(made))
-    return made.path
+    flown.path.write_text(scene_file.text(flown))
+    return flown.path
 
 
 def shot(path):

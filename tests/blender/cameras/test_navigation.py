@@ -314,15 +314,15 @@ def test_vr_landmarks_stand_on_the_ground_and_go_with_the_head(vr_viewer, panel,
     panel.stations.file = str(path)
     for _ in range(2):  # a second time changes none
         assert bpy.ops.firetwin.vr_landmarks() == {"FINISHED"}
-    found = {each.name: each for each in scene.vr_landmarks}
-    assert len(scene.vr_landmarks) == len(found)
-    base, began = found["Base Two"], go_to.find_position(scene, "ignition")
+    landmarks = {each.name: each for each in scene.vr_landmarks}
+    assert len(scene.vr_landmarks) == len(landmarks)
+    base, began = landmarks["Base Two"], go_to.find_position(scene, "ignition")
     assert (Vector(base.base_pose_location) - go_to.find_position(scene, "base two")).length < 0.01
     ahead = Matrix.Rotation(base.base_pose_angle, 3, "Z") @ Vector((0.0, 1.0, 0.0))
     way = (began - Vector(base.base_pose_location)) * Vector((1.0, 1.0, 0.0))
     assert ahead.angle(way) < 1e-3
-    empty = found["Head of the fire"].base_pose_object
-    assert found["Head of the fire"].type == "OBJECT"
+    empty = landmarks["Head of the fire"].base_pose_object
+    assert landmarks["Head of the fire"].type == "OBJECT"
     for frame in (1, 3):
         scene.frame_set(frame)
         assert (empty.matrix_world.translation - go_to.find_position(scene, "head")).length < 1.1

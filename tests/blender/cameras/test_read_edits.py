@@ -75,12 +75,12 @@ def test_a_camera_flown_by_hand_comes_back_from_the_file(film, stage, drone, pla
     ground.build(film, stage, None)
     before, lenses = _matrices(stage.scene, drone), []
     told = []
-    found = _pull(film, stage, told)
-    assert isinstance(found[0].rig, Poses)
+    read_back = _pull(film, stage, told)
+    assert isinstance(read_back[0].rig, Poses)
     assert not told
-    assert found[1] == film.settings.cameras[1]
-    assert len(found[0].rig.keys) <= FRAMES / 2
-    whole = replace(_again(film, found).settings, path=tmp_path / "scene.toml")
+    assert read_back[1] == film.settings.cameras[1]
+    assert len(read_back[0].rig.keys) <= FRAMES / 2
+    whole = replace(_again(film, read_back).settings, path=tmp_path / "scene.toml")
     whole.path.write_text(scene_file.text(whole), encoding="utf-8")
     shot = Shot(scene_file.read(whole.path), film.run)
     assert cameras.build(shot, stage)[0] == drone  # the same object, not another one
@@ -88,7 +88,7 @@ def test_a_camera_flown_by_hand_comes_back_from_the_file(film, stage, drone, pla
     moved = np.linalg.norm(after[:, :3, 3] - before[:, :3, 3], axis=1).max()
     apart = np.linalg.norm(after[:, :3, :3] - before[:, :3, :3], axis=(1, 2)).max()
     turned = np.degrees(apart / np.sqrt(2.0))  # of small angles
-    print(f"{len(found[0].rig.keys)} poses, {moved:.5f} m, {turned:.6f} degrees off")
+    print(f"{len(read_back[0].rig.keys)} poses, {moved:.5f} m, {turned:.6f} degrees off")
     assert moved < 0.5
     assert turned < 0.034
     for frame in (1, 64, FRAMES):

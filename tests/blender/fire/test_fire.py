@@ -154,14 +154,14 @@ def test_scrubbing_moves_the_flames(shot, stage, scene, plain_looks):
 
 
 def test_cells_are_algorithm_1(shot, settings, run):
-    found = flames.cell_flames(Shot(replace(settings, fire=FireSettings(emitters="cells")), run))
+    emitters = flames.cell_flames(Shot(replace(settings, fire=FireSettings(emitters="cells")), run))
     low, high = run.flux_range()
     position = shot.local_frame.forward_grid(
         run.latitude, run.longitude, np.asarray(run.elevation, np.float64)
     )
     for time in shot.frames.times:
         expected = flux.emitters(flux.at_time(run, float(time)), position, low, high)
-        lit = found.take(found.lit(time))
+        lit = emitters.take(emitters.lit(time))
         assert np.array_equal(lit.position, expected.position)
         assert lit.length == pytest.approx(0.4 * expected.scale)
 

@@ -82,20 +82,20 @@ def test_blender_draws_those_alive_where_their_path_is(close, run, stage, scene)
     shot = Shot(close, run)
     fire.build(shot, stage)
     look(scene)
-    found = flown(shot)
+    firebrands = flown(shot)
     for frame, subframe in ((1, 0.0), (12, 0.5), (24, 0.0)):
         time = (frame + subframe - 1.0) / (FRAMES - 1)
-        alive = found.alive(time)
-        at = (time - found.start[alive]) / found.step
-        low = np.clip(np.floor(at).astype(int), 0, found.place.shape[1] - 2)
+        alive = firebrands.alive(time)
+        at = (time - firebrands.start[alive]) / firebrands.step
+        low = np.clip(np.floor(at).astype(int), 0, firebrands.place.shape[1] - 2)
         part = (at - low)[:, None]
-        wanted = found.place[alive, low] * (1.0 - part) + found.place[alive, low + 1] * part
+        wanted = firebrands.place[alive, low] * (1.0 - part) + firebrands.place[alive, low + 1] * part
         place, axis, size = drawn(scene, frame, subframe)
         assert len(place) == pytest.approx(len(alive), abs=2)
         gap = np.linalg.norm(place[:, None] - wanted[None], axis=-1).min(axis=1)
         assert np.percentile(gap, 98.0) < 0.05
         assert np.all(size[:, 2] >= size[:, 0])
-        speed = np.linalg.norm(np.diff(found.place[alive], axis=1), axis=-1).max() / found.step
+        speed = np.linalg.norm(np.diff(firebrands.place[alive], axis=1), axis=-1).max() / firebrands.step
         assert (size[:, 2] - size[:, 0]).max() < 1.01 * speed / 25.0, "motion in the exposure time"
         assert np.linalg.norm(axis, axis=1) == pytest.approx(1.0, abs=1e-3)
 

@@ -58,13 +58,13 @@ def test_the_sample_keeps_its_heat(sample_run):
 
 def test_a_cell_with_flux_and_no_burning_fuel_has_a_source_at_its_centre(run):
     model = whole(run)
-    found = model.sources(0.0)  # the test run has flux ahead of its fire
-    alone = found.fuel_cell < 0
+    sources = model.sources(0.0)  # the test run has flux ahead of its fire
+    alone = sources.fuel_cell < 0
     assert alone.any()
-    row, column = np.divmod(found.cell[alone], len(run.longitude))
+    row, column = np.divmod(sources.cell[alone], len(run.longitude))
     centre = model.frame.forward(run.latitude[row], run.longitude[column], run.elevation[row, column])
-    assert found.position[alone] == pytest.approx(centre)
-    assert len(np.unique(found.cell[alone])) == alone.sum()
+    assert sources.position[alone] == pytest.approx(centre)
+    assert len(np.unique(sources.cell[alone])) == alone.sum()
 
 
 def test_burning_fuel_lies_in_the_cell_whose_heat_it_gives(run):

@@ -32,13 +32,13 @@ def lit():
 
 def test_lamps_stand_for_all_heat_near_the_cameras(near, run):
     shot = Shot(near, run)
-    ground, found = shot.ground, lamps.place_lamps(shot)
+    ground, placed = shot.ground, lamps.place_lamps(shot)
     model = Fire(run, -np.inf, np.inf)
-    luminous = [model.sources(float(time)).luminous().power.sum() for time in found.time]
-    assert 2 < len(found.radius) <= 48
-    assert found.heat.sum(axis=1) == pytest.approx(luminous, rel=1e-9)
-    assert found.heat.min() >= 0.0
-    above = found.position[:, 2] - ground.up(*found.position[:, :2].T)
+    luminous = [model.sources(float(time)).luminous().power.sum() for time in placed.time]
+    assert 2 < len(placed.radius) <= 48
+    assert placed.heat.sum(axis=1) == pytest.approx(luminous, rel=1e-9)
+    assert placed.heat.min() >= 0.0
+    above = placed.position[:, 2] - ground.up(*placed.position[:, :2].T)
     assert np.all((above > 10.0) & (above < 400.0))
 
 

@@ -99,7 +99,7 @@ def test_roofs_stand_on_their_outlines_as_high_as_they_say(near_settings, run, s
 def test_mapped_lakes_share_the_shader_of_water(near_settings, run, stage, tmp_path):
     """A second one fills the stack of Cycles' shaders, and the ground is black."""
     ring = [[-120.556, 38.8395], [-120.555, 38.8395], [-120.555, 38.840], [-120.556, 38.8395]]
-    found = [
+    features = [
         {
             "type": "Feature",
             "properties": {"kind": kind},
@@ -108,7 +108,7 @@ def test_mapped_lakes_share_the_shader_of_water(near_settings, run, stage, tmp_p
         for kind in ("field", "bare", "water")
     ]
     path = tmp_path / "land.geojson"
-    path.write_text(json.dumps({"type": "FeatureCollection", "features": found}))
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
     terrain = replace(near_settings.terrain, land_use=path)
     shot = Shot(replace(near_settings, terrain=terrain), run)
     maps = fields.land_use_images(shot)

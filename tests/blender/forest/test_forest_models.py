@@ -114,19 +114,21 @@ BELOW = {  # most triangles of level 0 and 3, least and most width over the heig
 @pytest.mark.parametrize("model", models.undergrowth(), ids=lambda model: f"{model.kind}-{model.state}")
 def test_what_lies_below_is_a_metre_tall_and_of_few_triangles(model):
     near, far, narrow, wide = BELOW[model.kind]
-    made = [model.make(level).mesh() for level in range(levels.LEVELS)]
-    counts = [len(triangles) for _, triangles, *_ in made]
+    meshes_of_level = [model.make(level).mesh() for level in range(levels.LEVELS)]
+    counts = [len(triangles) for _, triangles, *_ in meshes_of_level]
     assert counts == sorted(counts, reverse=True)
     assert counts[0] <= near
     assert counts[3] <= far
-    for level, (points, triangles, _, colours) in enumerate(made):
+    for level, (points, triangles, _, colours) in enumerate(meshes_of_level):
         a, b, c = points[triangles].transpose(1, 0, 2)
         assert np.linalg.norm(np.cross(b - a, c - a), axis=-1).min() > 1e-9
         assert np.array_equal(np.unique(triangles), np.arange(len(points)))
         assert colours.max() < 0.25
         again = model.make(level).mesh()
-        assert all(np.array_equal(one, other) for one, other in zip(made[level], again, strict=True))
-    points = made[0][0]
+        assert all(
+            np.array_equal(one, other) for one, other in zip(meshes_of_level[level], again, strict=True)
+        )
+    points = meshes_of_level[0][0]
     if (model.kind, model.state) != ("tuft", "snag"):  # stubble is a fifth as tall
         assert (0.7 if model.kind in ("brush", "log") else 0.95) < points[:, 2].max() < 2.4
         assert narrow < np.ptp(points[:, :2], axis=0).max() < wide

@@ -87,15 +87,15 @@ def test_a_scene_that_is_not_ours_keeps_its_world_and_its_colours(shot, scene):
 
 def test_the_shade_between_trees_is_filled_most_by_day_and_by_no_world_but_ours(settings, run, stage, scene):
     day, night = (datetime(2014, 9, 17, hour, tzinfo=UTC) for hour in (21, 8))
-    found = []
+    factors = []
     for moment in (day, night):
         film = replace(settings, time=replace(settings.time, start=moment, end=None, frames=1))
         light.build(Shot(film, run), stage)
         engine.apply(film, scene)
         assert scene.cycles.use_fast_gi
-        found.append(scene.world.light_settings.ao_factor)
-    assert 0.3 < found[0] < 0.6
-    assert 0.03 * found[0] < found[1] < 0.4 * found[0]
+        factors.append(scene.world.light_settings.ao_factor)
+    assert 0.3 < factors[0] < 0.6
+    assert 0.03 * factors[0] < factors[1] < 0.4 * factors[0]
     assert scene.world.cycles.sampling_method == "NONE"
     scene.world = bpy.data.worlds.new("mine")
     engine.apply(settings, scene)

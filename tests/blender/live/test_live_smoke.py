@@ -141,14 +141,14 @@ def test_a_sheet_reads_its_own_row_of_the_picture(stage, baked):
 
 
 def test_the_shadow_has_a_column_for_each_moment(stage, baked):
-    made = smoke.shade(baked)
-    image = next(node.image for node in made.group.nodes if node.type == "TEX_IMAGE")
+    shade = smoke.shade(baked)
+    image = next(node.image for node in shade.group.nodes if node.type == "TEX_IMAGE")
     pixels = np.empty(4 * image.size[0] * image.size[1], np.float32)
     image.pixels.foreach_get(pixels)
     red = pixels.reshape(4, 8, 4)[..., 0]
     np.testing.assert_allclose(red[:, :4], 1.0)
     np.testing.assert_allclose(red[:, 4:], 0.2, atol=0.003)
-    assert owned.is_ours(made.group)
+    assert owned.is_ours(shade.group)
 
 
 def test_smoke_that_is_not_solved_is_told(shot, stage):

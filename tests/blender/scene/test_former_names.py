@@ -31,13 +31,17 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path, capsys):
     path = tmp_path / "former.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     bpy.ops.wm.open_mainfile(filepath=str(path))
-    found = bpy.context.scene.firetwin
-    assert (found.terrain.error, found.labels.enabled, found.forest.budget) == (pytest.approx(0.7), True, 17)
-    assert not found.render.cull
-    assert found.time.fps == 12.0
-    assert (found.terrain.height_source, found.tiles.vegetation) == ("tiles", "scene_near_burn")
-    assert found.tiles.max_screen_space_error == pytest.approx(3.0)
-    assert found.tiles.exact == '{"max_screen_space_error": 3.123456789}'
+    settings = bpy.context.scene.firetwin
+    assert (settings.terrain.error, settings.labels.enabled, settings.forest.budget) == (
+        pytest.approx(0.7),
+        True,
+        17,
+    )
+    assert not settings.render.cull
+    assert settings.time.fps == 12.0
+    assert (settings.terrain.height_source, settings.tiles.vegetation) == ("tiles", "scene_near_burn")
+    assert settings.tiles.max_screen_space_error == pytest.approx(3.0)
+    assert settings.tiles.exact == '{"max_screen_space_error": 3.123456789}'
     assert owned.is_ours(bpy.data.collections["Firetwin Terrain"], "Terrain")
     assert "ground" not in compat.stored_properties(bpy.context.scene)["firetwin"]
     note = capsys.readouterr().err

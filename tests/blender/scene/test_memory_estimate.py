@@ -13,15 +13,15 @@ def _smoky(settings, **smoke):
 
 
 def test_what_is_drawn_is_counted(shot, built):
-    found = memory_estimate.load(shot, built)
-    assert found.pixels == 64 * 36
+    load = memory_estimate.load(shot, built)
+    assert load.pixels == 64 * 36
     (grass,) = (each for each in built.objects_of("Forest") if each.name == "Firetwin Grass")
     (trees,) = (each for each in built.objects_of("Forest") if each.name == "Firetwin Trees")
     assert len(trees.data.vertices) > 100
-    assert found.plants == len(grass.data.vertices) + len(trees.data.vertices), "not trees of the viewport"
-    assert found.faces >= len(built.objects_of("Terrain")[0].data.polygons)
-    assert (found.cells, found.voxels, found.layered) == (0, 0, 0)
-    assert memory_estimate.load(shot, built, names=("rgb", "comp")) == replace(found, layered=64 * 36)
+    assert load.plants == len(grass.data.vertices) + len(trees.data.vertices), "not trees of the viewport"
+    assert load.faces >= len(built.objects_of("Terrain")[0].data.polygons)
+    assert (load.cells, load.voxels, load.layered) == (0, 0, 0)
+    assert memory_estimate.load(shot, built, names=("rgb", "comp")) == replace(load, layered=64 * 36)
 
 
 def test_what_is_hidden_is_not_counted(shot, built):
@@ -34,17 +34,17 @@ def test_what_is_hidden_is_not_counted(shot, built):
 def test_cells_count_until_all_moments_are_kept(settings, run, few_cells, built, monkeypatch):
     shot = Shot(_smoky(settings), run)
     parts = Flow(shot).domains
-    found = memory_estimate.load(shot, built, [1, 2])
+    load = memory_estimate.load(shot, built, [1, 2])
     assert len(parts) == 2
-    assert found.cells == sum(
+    assert load.cells == sum(
         len(part.ground) * len(part.ground[0]) * (len(part.box.levels) - 1) for part in parts
     )
-    assert found.voxels > 0
+    assert load.voxels > 0
     kept = {1}
     monkeypatch.setattr("firetwin.smoke.domains.Domain.has", lambda part, frame: frame in kept)
-    assert memory_estimate.load(shot, built, [1, 2]).cells == found.cells
+    assert memory_estimate.load(shot, built, [1, 2]).cells == load.cells
     kept.add(2)
-    assert memory_estimate.load(shot, built, [1, 2]) == replace(found, cells=0)
+    assert memory_estimate.load(shot, built, [1, 2]) == replace(load, cells=0)
 
 
 @pytest.mark.parametrize("smoke", [{"method": "puffs"}, {"lighting": "traced"}, {"draw": "volume"}])

@@ -42,13 +42,13 @@ _LONGEST = 500  # of longer lists only the length is compared
 
 def inventory():
     """Describe every foreign data-block: kind, name, library and users, and a digest of its properties."""
-    found = {}
+    digests = {}
     for prop in bpy.data.bl_rna.properties:
         if prop.type == "COLLECTION" and prop.identifier not in _NOT_IN_FILES:
             for block in getattr(bpy.data, prop.identifier):
                 if not owned.is_ours(block) or isinstance(block, bpy.types.Scene):
-                    found[prop.identifier, block.name_full] = digest(block)
-    return found
+                    digests[prop.identifier, block.name_full] = digest(block)
+    return digests
 
 
 def foreign_parts(scene):
@@ -99,7 +99,7 @@ def struct(thing, depth, owner):
     """Describe a structure inside a data-block: all its properties, to some depth."""
     if isinstance(thing, bpy.types.AnimData):
         return animation(thing, depth, owner)
-    found = {}
+    values = {}
     for prop in thing.bl_rna.properties:
         name = prop.identifier
         if name in _SKIPPED or name.startswith("is_"):
@@ -108,8 +108,8 @@ def struct(thing, depth, owner):
             value = getattr(thing, name)
         except (AttributeError, RuntimeError, TypeError):
             continue
-        found[name] = told(prop, value, depth, owner)
-    return found
+        values[name] = told(prop, value, depth, owner)
+    return values
 
 
 def animation(data, depth, owner):

@@ -30,13 +30,13 @@ def instances():
 def test_labels_stand_on_their_places_and_face_the_camera(labelled, run, scene):
     shot = Shot(labelled, run)
     build.build(shot, scene, ("cameras", "labels"))
-    found = instances()
+    matrices = instances()
     wanted = shot.ground.point([38.840, 38.872], [-120.555, -120.545])  # one lies beyond the ground
-    assert np.array([m.translation[:] for m in found]) == pytest.approx(wanted, abs=0.01)
+    assert np.array([m.translation[:] for m in matrices]) == pytest.approx(wanted, abs=0.01)
     eye = np.array(scene.camera.matrix_world.translation)
     turned = np.array(scene.camera.matrix_world.to_3x3())
     wide = 2.0 * shot.paths[0].half[0]
-    for matrix, place in zip(found, wanted, strict=True):
+    for matrix, place in zip(matrices, wanted, strict=True):
         scale = matrix.to_scale()[0]
         assert np.array(matrix.to_3x3()) / scale == pytest.approx(turned, abs=1e-3)
         assert scale == pytest.approx(0.1 * wide * 36 / 64 * np.linalg.norm(place - eye), rel=1e-3)
@@ -69,11 +69,11 @@ def test_labelled_towns_have_lights_by_night(settings, run, scene, monkeypatch, 
     time = replace(settings.time, start=datetime(2014, 9, 18, hour, tzinfo=UTC), end=None, frames=1)
     shot = Shot(replace(settings, time=time, labels=LabelSettings(enabled=True)), run)
     build.build(shot, scene, ("cameras", "labels"))
-    made = bpy.data.objects.get("Firetwin Town Lights")
-    assert (made is not None) == lit
-    if made is not None:
-        corners = np.array([vertex.co[:2] for vertex in made.data.vertices])
+    lights = bpy.data.objects.get("Firetwin Town Lights")
+    assert (lights is not None) == lit
+    if lights is not None:
+        corners = np.array([vertex.co[:2] for vertex in lights.data.vertices])
         assert corners.mean(axis=0) == pytest.approx(
             shot.ground.point([38.840], [-120.555])[0, :2], abs=150.0
         )
-        assert not made.visible_shadow
+        assert not lights.visible_shadow

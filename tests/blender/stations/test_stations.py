@@ -50,20 +50,20 @@ def test_signs_face_the_camera_keep_their_size_and_have_two_forms(stationed, run
     far = replace(stationed, stations=replace(stationed.stations, detail=3000.0))
     shot = Shot(far, run)
     build.build(shot, scene, ("cameras", "stations"))
-    found = shown("Firetwin Signs")
+    signs = shown("Firetwin Signs")
     wanted = shot.ground.point(*zip(NEAR, FAR, strict=True))
     eye = np.array(scene.camera.matrix_world.translation)
     turned = np.array(scene.camera.matrix_world.to_3x3())
     wide = 2.0 * shot.paths[0].half[0]
-    assert len(found) == 2
-    for (matrix, _), place in zip(found, wanted, strict=True):
+    assert len(signs) == 2
+    for (matrix, _), place in zip(signs, wanted, strict=True):
         scale = matrix.to_scale()[0]
         assert np.array(matrix.translation) == pytest.approx(place, abs=0.01)
         assert np.array(matrix.to_3x3()) / scale == pytest.approx(turned, abs=1e-3)
         assert scale == pytest.approx(0.1 * wide * 36 / 64 * np.linalg.norm(place - eye), rel=1e-3)
     away = np.linalg.norm(wanted - eye, axis=1)
     assert list(away < 3000.0) == [True, False]
-    assert [name for _, name in found] == ["Firetwin Sign 00000", "Firetwin Sign 00003"]
+    assert [name for _, name in signs] == ["Firetwin Sign 00000", "Firetwin Sign 00003"]
     build.build(
         Shot(replace(far, stations=replace(far.stations, distance=3000.0)), run), scene, ("stations",)
     )
@@ -137,13 +137,13 @@ def test_routes_lie_on_the_ground_as_wide_in_every_picture(stationed, run, scene
     assert line[0] == pytest.approx(shot.ground.point(*NEAR)[0], abs=0.01)
     assert line[-1] == pytest.approx(shot.ground.point(*station_signs.ignition_point(shot))[0], abs=0.01)
     scene.view_layers[0].update()
-    made = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    corners = np.array([v.co[:] for v in made.vertices[:4]])
+    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    corners = np.array([v.co[:] for v in mesh.vertices[:4]])
     eye = np.array(scene.camera.matrix_world.translation)
     picture = 2.0 * shot.paths[0].half[0] * 36 / 64 * np.linalg.norm(line[0] - eye)
     assert np.linalg.norm(corners[0] - corners[2]) == pytest.approx(0.02 * picture, rel=1e-3)
     assert corners[3, 2] > line[0, 2]  # the lowest side
-    assert {p.material_index for p in made.polygons} == {0, 1}
+    assert {p.material_index for p in mesh.polygons} == {0, 1}
 
 
 def test_off_by_default(settings, run, scene):

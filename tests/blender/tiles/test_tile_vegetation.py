@@ -25,8 +25,8 @@ def seen(shot, tmp_path, decoded_here):
     """Makes shots on photogrammetry between the camera and its target; and that scene."""
 
     middle = shot.bare_ground.point(38.838, -120.553)[0, :2]
-    made = photogrammetry.scene(shot.bare_ground.up, middle, HALF, OFF)
-    folder = photogrammetry.write(tmp_path / "set", shot.ground.frame, made)
+    surface = photogrammetry.scene(shot.bare_ground.up, middle, HALF, OFF)
+    folder = photogrammetry.write(tmp_path / "set", shot.ground.frame, surface)
 
     def make(vegetation="scene", height_source="elevation"):
         known = replace(shot.settings.tiles, sources=(str(folder),), geoid=0.0, vegetation=vegetation)
@@ -43,7 +43,7 @@ def seen(shot, tmp_path, decoded_here):
         selection.make(second)
         return second
 
-    return make, made
+    return make, surface
 
 
 def the_tile(shot):
@@ -60,32 +60,32 @@ def vertices_of(made, tile):
 
 
 def test_ground_below_the_wood_and_the_houses(seen):
-    make, made = seen
+    make, surface = seen
     heights = tile_cut.heights(make())
-    inside = (made.growth > 2.0) | made.roof
-    east, north = made.east[inside], made.north[inside]
-    off = heights.up(east, north) - made.ground[inside]
+    inside = (surface.growth > 2.0) | surface.roof
+    east, north = surface.east[inside], surface.north[inside]
+    off = heights.up(east, north) - surface.ground[inside]
     assert np.abs(off).max() < 1.0
     assert np.percentile(np.abs(off), 95) < 0.5
-    assert (heights.top(east, north) - made.ground[inside]).min() > 1.0
-    assert heights.building(made.east[made.roof], made.north[made.roof]).mean() > 0.9
-    assert not heights.building(made.east[made.growth > 2.0], made.north[made.growth > 2.0]).any()
+    assert (heights.top(east, north) - surface.ground[inside]).min() > 1.0
+    assert heights.building(surface.east[surface.roof], surface.north[surface.roof]).mean() > 0.9
+    assert not heights.building(surface.east[surface.growth > 2.0], surface.north[surface.growth > 2.0]).any()
 
 
 def test_growth_is_pushed_down_and_houses_stay(seen):
-    make, made = seen
+    make, surface = seen
     shot = make("scene")
     tile = the_tile(shot)
     flat = flatten.flatten(shot, tile)
-    number = vertices_of(made, tile)
-    above = (flat.position[:, 2] + flat.origin[2])[number] - made.ground
-    assert above[made.growth > 0.0].max() < flatten.LEAST + 0.5
-    assert (flat.position[number[made.roof]] == tile.position[number[made.roof]]).all()
-    bare = ~made.roof & (made.growth == 0.0)
+    number = vertices_of(surface, tile)
+    above = (flat.position[:, 2] + flat.origin[2])[number] - surface.ground
+    assert above[surface.growth > 0.0].max() < flatten.LEAST + 0.5
+    assert (flat.position[number[surface.roof]] == tile.position[number[surface.roof]]).all()
+    bare = ~surface.roof & (surface.growth == 0.0)
     assert (flat.position[number[bare]] == tile.position[number[bare]]).all()
     np.testing.assert_allclose(np.linalg.norm(flat.normal, axis=1), 1.0, atol=1e-5)
-    wood = number[made.growth > 3.0]
-    slope = np.gradient(made.ground, photogrammetry.STEP)
+    wood = number[surface.growth > 3.0]
+    slope = np.gradient(surface.ground, photogrammetry.STEP)
     steepest = np.hypot(*slope).max()
     assert flat.normal[wood, 2].min() > 0.8 / np.hypot(1.0, steepest)
     assert flatten.flatten(make("tileset"), tile) is tile
@@ -111,13 +111,13 @@ def test_where_it_burns_is_the_burned_area_and_around(seen):
 
 
 def test_no_tree_stands_in_a_house_or_in_the_tiles_wood(seen):
-    make, made = seen
-    place = np.column_stack([made.east.ravel(), made.north.ravel(), made.ground.ravel()])
-    roof = made.roof.ravel()
+    make, surface = seen
+    place = np.column_stack([surface.east.ravel(), surface.north.ravel(), surface.ground.ravel()])
+    roof = surface.roof.ravel()
     ours, theirs = (tile_vegetation.may_grow(make(each), place) for each in ("scene", "tileset"))
     assert ours[~roof].mean() > 0.9
     assert ours[roof].mean() < 0.1
-    edge = np.zeros(made.east.shape, bool)
+    edge = np.zeros(surface.east.shape, bool)
     edge[[0, 1, -2, -1]] = edge[:, [0, 1, -2, -1]] = True
     assert not theirs[~edge.ravel()].any()
     beyond = place + np.array([4.0 * HALF, 0.0, 0.0])
@@ -125,15 +125,16 @@ def test_no_tree_stands_in_a_house_or_in_the_tiles_wood(seen):
 
 
 def test_things_stand_on_the_ground_and_cameras_clear_the_crowns(seen):
-    make, made = seen
+    make, surface = seen
     shot = make("tileset", height_source="tiles")
     inner = (
-        np.maximum(np.abs(made.east - made.east.mean()), np.abs(made.north - made.north.mean())) < 0.7 * HALF
+        np.maximum(np.abs(surface.east - surface.east.mean()), np.abs(surface.north - surface.north.mean()))
+        < 0.7 * HALF
     )
-    tall = inner & (made.growth > 5.0)
-    top = shot.ground.top(made.east[tall], made.north[tall])
-    assert np.abs(top - made.height[tall]).max() < 3.0  # between points of the wood's rough surface
-    place = np.column_stack([made.east[tall], made.north[tall], made.height[tall] - 1.0])[:1]
+    tall = inner & (surface.growth > 5.0)
+    top = shot.ground.top(surface.east[tall], surface.north[tall])
+    assert np.abs(top - surface.height[tall]).max() < 3.0  # between points of the wood's rough surface
+    place = np.column_stack([surface.east[tall], surface.north[tall], surface.height[tall] - 1.0])[:1]
     assert flight.short(shot.ground, place, np.array([10.0]))[0] > 7.0
 
 

@@ -50,14 +50,14 @@ def test_points_and_triangles_of_a_tile_are_objects(cloud, stage):
     assert (len(shown.data.vertices), len(shown.data.polygons)) == (4 + 4, 2 + 8)  # with a skirt
     assert (len(cloudy.data.vertices), len(cloudy.data.polygons)) == (SIDE**2, 0)
     geometry = cloudy.evaluated_get(bpy.context.evaluated_depsgraph_get()).evaluated_geometry()
-    found = geometry.pointcloud
-    assert len(found.points) == SIDE**2
-    assert {"elevation", "grid", mesh.COLOUR, points.RADIUS} <= set(found.attributes.keys())
+    cloud_points = geometry.pointcloud
+    assert len(cloud_points.points) == SIDE**2
+    assert {"elevation", "grid", mesh.COLOUR, points.RADIUS} <= set(cloud_points.attributes.keys())
     colour = np.empty(4 * SIDE**2, np.float32)
-    found.attributes[mesh.COLOUR].data.foreach_get("color", colour)
+    cloud_points.attributes[mesh.COLOUR].data.foreach_get("color", colour)
     assert np.allclose(colour.reshape(-1, 4), [1.0, 0.0, 0.0, 1.0])
-    assert found.points[0].radius == pytest.approx(points.COVERING * 2.0, rel=0.3)
-    assert [each.name for each in found.materials] == ["Firetwin Tiles"]
+    assert cloud_points.points[0].radius == pytest.approx(points.COVERING * 2.0, rel=0.3)
+    assert [each.name for each in cloud_points.materials] == ["Firetwin Tiles"]
 
 
 def test_points_are_where_the_ground_says(cloud, stage):

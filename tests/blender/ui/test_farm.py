@@ -173,7 +173,7 @@ def test_the_choices_are_saved_with_the_file(panel, tmp_path):
 def test_the_panel_reads_no_file(panel, monkeypatch):
     bpy.ops.firetwin.farm_write()
     bpy.ops.firetwin.farm_status()
-    known = farm_watch.last_status(farm._output_folder(panel))
+    status = farm_watch.last_status(farm._output_folder(panel))
     monkeypatch.setattr("firetwin.farm.status.gather", lambda *_: pytest.fail("the panel reads"))
     drawn = []
 
@@ -193,7 +193,7 @@ def test_the_panel_reads_no_file(panel, monkeypatch):
     context = SimpleNamespace(scene=bpy.context.scene)
     farm.FIRETWIN_PT_farm.draw(SimpleNamespace(layout=Layout()), context)
     words = [more["text"] for _, _, more in drawn if "text" in more]
-    assert f"0 done, 0 running, 0 failed, {len(known.waiting)} waiting, of {known.tasks}" in words
+    assert f"0 done, 0 running, 0 failed, {len(status.waiting)} waiting, of {status.tasks}" in words
 
 
 def test_the_watch_follows_a_job_until_it_is_done(panel, monkeypatch):

@@ -106,13 +106,13 @@ def test_every_refusal_says_what_to_do(settings, run_folder, scene_file):
 
 def test_a_run_is_known_as_soon_as_it_is_chosen(settings, run_folder):
     settings.run = str(run_folder)
-    found = run.parse_facts(settings.facts)
-    rows = dict(found["rows"])
+    facts = run.parse_facts(settings.facts)
+    rows = dict(facts["rows"])
     assert rows["Grid"].startswith("24 x 24 cells of 3")
     assert rows["First"] == "17 Sep 2014 13:00 -08"  # by its longitude: nobody said which fire it is
     assert rows["Burned"].endswith("acres")
     assert settings.cameras.keys() == ["overview", "chase", "flank", "satellite"]
-    assert [words for _, words in found["moments"]] == ["the run begins", "the run ends"]
+    assert [words for _, words in facts["moments"]] == ["the run begins", "the run ends"]
     kept = maps._kept[settings.run]  # without a window they have no icons
     assert kept["fuel"].image_size[:] == kept["intensity"].image_size[:] == (192, 192)
     assert [item[0] for item in render.camera_items(settings, None)] == [

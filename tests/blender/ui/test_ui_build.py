@@ -27,7 +27,7 @@ def opened(panel, settings, tmp_path):
 
 def values(thing):
     """Properties of a node or socket that can be compared."""
-    found = {}
+    properties = {}
     for prop in thing.bl_rna.properties:
         if prop.type in ("POINTER", "COLLECTION") or prop.identifier in (
             "session_uid",
@@ -36,14 +36,14 @@ def values(thing):
         ):
             continue
         value = getattr(thing, prop.identifier)
-        found[prop.identifier] = (
+        properties[prop.identifier] = (
             value
             if isinstance(value, str | bool | int | float)
             else tuple(value)
             if prop.type != "ENUM"
             else str(value)
         )
-    return found
+    return properties
 
 
 def tree(nodes):
@@ -59,7 +59,7 @@ def tree(nodes):
 
 def mesh(data):
     """Attributes of a mesh, each as a digest of its array."""
-    found = {}
+    attributes = {}
     for attribute in data.attributes:
         name = (
             next((n for n in ("value", "vector", "color") if hasattr(attribute.data[0], n)), None)
@@ -71,8 +71,8 @@ def mesh(data):
         width = np.size(getattr(attribute.data[0], name))
         array = np.empty(len(attribute.data) * width, np.float32)
         attribute.data.foreach_get(name, array)
-        found[attribute.name] = (len(array), hashlib.sha256(array.tobytes()).hexdigest())
-    return found
+        attributes[attribute.name] = (len(array), hashlib.sha256(array.tobytes()).hexdigest())
+    return attributes
 
 
 def everything(scene):
@@ -184,10 +184,10 @@ def test_a_run_and_a_scene_file_are_opened_by_their_file(panel, run_folder, sett
 
 
 def test_the_king_fire_is_made_here_and_opened(panel, run_folder, tmp_path, monkeypatch):
-    made = []
+    tasks = []
 
     def copy(task, arguments, *_, **__):
-        made.append(task)
+        tasks.append(task)
         Path(arguments["out"]).symlink_to(run_folder)
 
     monkeypatch.setattr(sample.worker, "run", copy)
@@ -195,7 +195,7 @@ def test_the_king_fire_is_made_here_and_opened(panel, run_folder, tmp_path, monk
         assert bpy.ops.firetwin.sample(folder=str(tmp_path / "king")) == {"FINISHED"}
         assert panel.run == str(tmp_path / "king")
         assert panel.cameras.keys() == ["overview", "chase", "flank", "satellite"]
-    assert made == ["firetwin.jobs.sample:in_blender"]
+    assert tasks == ["firetwin.jobs.sample:in_blender"]
     assert not list(tmp_path.glob(".*"))
 
 

@@ -155,22 +155,22 @@ REFUSED = ("inspect", "build", "remove", "camera_add", *CAMERA, "render", "open"
 def test_what_is_linked_is_left_alone_and_what_is_appended_is_ours(panel, plain_looks, blend):
     there = file.text(scene_file.read_settings(bpy.context.scene))
     bpy.ops.wm.read_homefile(use_empty=True)
-    with bpy.data.libraries.load(str(blend), link=True) as (known, wanted):
-        wanted.scenes = known.scenes
+    with bpy.data.libraries.load(str(blend), link=True) as (source, wanted):
+        wanted.scenes = source.scenes
     (linked,) = wanted.scenes
     bpy.context.window.scene = linked
     for name in REFUSED:
         assert "linked" in message(getattr(bpy.ops.firetwin, name)), name
     bpy.ops.wm.read_homefile(use_empty=True)
-    with bpy.data.libraries.load(str(blend)) as (known, wanted):
-        wanted.scenes = known.scenes
+    with bpy.data.libraries.load(str(blend)) as (source, wanted):
+        wanted.scenes = source.scenes
     (appended,) = wanted.scenes
     bpy.context.window.scene = appended
     assert file.text(scene_file.read_settings(appended)) == there
     before = {name for name, _ in names(appended)}
     assert bpy.ops.firetwin.build() == {"FINISHED"}
     assert {name for name, _ in names(appended)} == before
-    with bpy.data.libraries.load(str(blend), link=True) as (known, wanted):
+    with bpy.data.libraries.load(str(blend), link=True) as (source, wanted):
         wanted.objects = ["Firetwin Camera drone"]
     appended.collection.objects.link(wanted.objects[0])
     appended.camera = wanted.objects[0]

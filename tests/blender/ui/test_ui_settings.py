@@ -69,8 +69,8 @@ def test_what_an_artist_changes_is_what_comes_out(panel):
     whole = replace(file.read(EXAMPLES / "king_fire.toml"), render=Render(thermal_low=285.123456789))
     scene_file.fill(panel.id_data, whole)
     panel.render.thermal_high, panel.terrain.error = 700.1, 0.3
-    found = scene_file.read_settings(panel.id_data)
-    assert (found.render.thermal_low, found.render.thermal_high, found.terrain.error) == (
+    settings = scene_file.read_settings(panel.id_data)
+    assert (settings.render.thermal_low, settings.render.thermal_high, settings.terrain.error) == (
         285.123456789,
         700.1,
         0.3,
@@ -78,14 +78,14 @@ def test_what_an_artist_changes_is_what_comes_out(panel):
     panel.render.thermal_low = 290.5
     panel.time.start, panel.terrain.photo_extent = "2014-09-17T16:10-07:00", "-121, 38.6, -120.2, 39.1"
     panel.cameras[0].name = "mine"
-    found = scene_file.read_settings(panel.id_data)
-    assert found.render.thermal_low == 290.5
-    assert f"{found.time.start:%H:%M %Z}" == "23:10 UTC"
-    assert found.terrain.photo_extent == (-121.0, 38.6, -120.2, 39.1)
-    assert found.cameras[0] == replace(whole.cameras[0], name="mine")
+    settings = scene_file.read_settings(panel.id_data)
+    assert settings.render.thermal_low == 290.5
+    assert f"{settings.time.start:%H:%M %Z}" == "23:10 UTC"
+    assert settings.terrain.photo_extent == (-121.0, 38.6, -120.2, 39.1)
+    assert settings.cameras[0] == replace(whole.cameras[0], name="mine")
     panel.render.use_thermal_low, panel.time.use_speed, panel.time.start = False, False, ""
-    found = scene_file.read_settings(panel.id_data)
-    assert (found.render.thermal_low, found.time.start) == (None, None)
+    settings = scene_file.read_settings(panel.id_data)
+    assert (settings.render.thermal_low, settings.time.start) == (None, None)
 
 
 @pytest.mark.parametrize(

@@ -104,17 +104,17 @@ def test_the_solid_view_shows_fuel_scar_and_water(settings, run_folder, scene, p
     data = bpy.data.objects["Firetwin Ground"].data
     assert data.color_attributes.active_color.name == solid_view.NAME
     row, column = (axis.ravel() for axis in np.indices(shot.ground.shape).astype(float))
-    found = solid_view.vertex_colours(shot, row, column).reshape(*shot.ground.shape, 3)
+    colours = solid_view.vertex_colours(shot, row, column).reshape(*shot.ground.shape, 3)
     ground = shot.ground
     inside = ground.burned > 0.5
     before = inside & (ground.burn_time <= shot.frames.first)
     during = inside & (ground.burn_time > shot.frames.first) & (ground.burn_time <= shot.frames.last)
     assert before.sum() > 10
     assert during.sum() > 10
-    assert found[before] == pytest.approx(np.broadcast_to(solid_view.BURNED, found[before].shape))
-    assert found[during] == pytest.approx(np.broadcast_to(solid_view.BURNS, found[during].shape))
+    assert colours[before] == pytest.approx(np.broadcast_to(solid_view.BURNED, colours[before].shape))
+    assert colours[during] == pytest.approx(np.broadcast_to(solid_view.BURNS, colours[during].shape))
     dense = (ground.fields.canopy_fuel > 2.0) & ~inside & (ground.bare < 0.001) & (ground.water < 0.5)
-    assert found[dense] == pytest.approx(np.broadcast_to(solid_view.FOREST, found[dense].shape), rel=0.05)
+    assert colours[dense] == pytest.approx(np.broadcast_to(solid_view.FOREST, colours[dense].shape), rel=0.05)
     ground.__dict__["water"] = np.ones(ground.shape)
     assert np.all(solid_view.vertex_colours(shot, row, column) == np.float32(solid_view.WATER))
 

@@ -121,7 +121,7 @@ def test_it_is_the_same_each_time_and_in_any_order():
         Unit(f"{i}", TYPES[i % 2], 200.0, 20.0, 60.0, 100.0 + 50.0 * (i % 3), 38.9 + 0.01 * (i % 5), -120.6)
         for i in range(60)
     ]
-    found = []
+    answers = []
     for order in (range(60), range(60), reversed(range(60)), rng.permutation(60)):
         kept, _ = resources.select_usable([units[i] for i in order])
         problem = replace(
@@ -133,9 +133,9 @@ def test_it_is_the_same_each_time_and_in_any_order():
             cost=np.array([unit.cost_hour for unit in kept]),
         )
         answer = containment.solve(problem)
-        found.append([(unit.id, int(k)) for unit, k in zip(kept, answer.division, strict=True) if k >= 0])
-    assert found[0]
-    assert found == found[:1] * 4
+        answers.append([(unit.id, int(k)) for unit, k in zip(kept, answer.division, strict=True) if k >= 0])
+    assert answers[0]
+    assert answers == answers[:1] * 4
     assert [unit.id for unit in resources.select_usable(units[::-1])[0]] == [str(i) for i in range(60)]
 
 
@@ -283,16 +283,16 @@ def test_what_cannot_be_held_is_said_with_the_nearest_plan(round_run, station_fi
     layer = tmp_path / "plan.geojson"
     line = ["allocate", str(station_file), str(round_run), "--hours", "1", "--geojson", str(layer)]
     assert cli.main([*line, "--budget", "100", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    lost = [each for each in found["divisions"] if each["contained_at_hour"] is None]
+    result = json.loads(capsys.readouterr().out)
+    lost = [each for each in result["divisions"] if each["contained_at_hour"] is None]
     assert len(lost) == 3
     plans = [each["nearest_plan"] for each in lost]
-    assert sum(plan["cost"] for plan in plans) + found["sums"]["cost"] <= 100.0
+    assert sum(plan["cost"] for plan in plans) + result["sums"]["cost"] <= 100.0
     for plan in plans:
         assert plan["line"] + plan["missing"] == pytest.approx(plan["front"], abs=0.2)
         assert plan["line"] == pytest.approx(sum(each["line"] for each in plan["resources"]), abs=0.2)
         assert plan["hour_of_all"] == 1.0
-    text = page.format_text(found)
+    text = page.format_text(result)
     assert text.count("cannot be held, with a front of") == 3
     assert "  nearest feasible plan: 0 m (0 %) by hour 1, for another 0.00 USD" in text
     assert "  all resources together would contain it at hour 1: they build " in text
@@ -355,21 +355,21 @@ UNITS = [
 
 
 def test_a_suggestion_says_what_it_is(round_run):
-    found = job.suggest(UNITS, readers.open(round_run), Request(), hours=1)
-    assert found["label"] == EXERCISE
-    assert found["status"] == "suggested"
-    assert json.loads(json.dumps(found)) == found
-    for part in found["divisions"]:
+    result = job.suggest(UNITS, readers.open(round_run), Request(), hours=1)
+    assert result["label"] == EXERCISE
+    assert result["status"] == "suggested"
+    assert json.loads(json.dumps(result)) == result
+    for part in result["divisions"]:
         assert part["line"] >= part["perimeter"][int(part["contained_at_hour"]) - 1]
         assert sum(each["line"] for each in part["resources"]) == pytest.approx(part["line"], abs=1.0)
-    sent = [each["id"] for part in found["divisions"] for each in part["resources"]]
+    sent = [each["id"] for part in result["divisions"] for each in part["resources"]]
     assert len(sent) == len(set(sent))
-    assert found["sums"]["cost"] == 100.0 * len(sent)
-    text = page.format_text(found)
+    assert result["sums"]["cost"] == 100.0 * len(sent)
+    text = page.format_text(result)
     assert text.startswith(f"*** {EXERCISE} ***")
     assert text.endswith(f"*** {EXERCISE} ***")
     assert all(f"- {limit}" in text for limit in LIMITS)
-    assert found == job.suggest(UNITS[::-1], readers.open(round_run), Request(), hours=1)
+    assert result == job.suggest(UNITS[::-1], readers.open(round_run), Request(), hours=1)
 
 
 @pytest.mark.parametrize(
@@ -503,10 +503,10 @@ def test_members_of_a_forecast_at_a_control_line(round_run, forecast):
     about = {"kind": "control_line", "division": "A", "hour": 1.0}
     ring = circle(2400.0).tolist()
     drawn = {"features": [{"properties": about, "geometry": {"coordinates": [ring[:200], ring[200:]]}}]}
-    found = {"from": "2014-09-17T04:45:00Z", "divisions": [{"name": "A"}, {"name": "B"}], "assumptions": []}
+    result = {"from": "2014-09-17T04:45:00Z", "divisions": [{"name": "A"}, {"name": "B"}], "assumptions": []}
     opened = place_arrivals.open_forecast(forecast, "the list")
-    member_lines.add(found, readers.open(round_run), opened, drawn)
-    told = found["divisions"][0]["forecast"]
+    member_lines.add(result, readers.open(round_run), opened, drawn)
+    told = result["divisions"][0]["forecast"]
     assert (told["members"], told["hour"], told["reached_by_hour"]) == (20, 1.0, 2)
     first, half, most = (each["time"] for each in told["reached_by"])
     assert most is None
@@ -514,8 +514,10 @@ def test_members_of_a_forecast_at_a_control_line(round_run, forecast):
         after = datetime.fromisoformat(reached) - datetime(2014, 9, 17, 4, 35, tzinfo=UTC)
         assert after.total_seconds() / 60.0 == pytest.approx(minutes, abs=1.5)
     assert told["text"].endswith("; not in 10 of 20 by 16 Sep 22:35, when the forecast ends")
-    assert "forecast" not in found["divisions"][1]
-    assert found["assumptions"][0].startswith("forecast: Circles, 20 of 20 members, issued 16 Sep 2014 20:35")
+    assert "forecast" not in result["divisions"][1]
+    assert result["assumptions"][0].startswith(
+        "forecast: Circles, 20 of 20 members, issued 16 Sep 2014 20:35"
+    )
 
 
 @pytest.mark.parametrize("text", ["engine", "engine=0", "engine=x", "=3", "engine=1,engine=2", ""])

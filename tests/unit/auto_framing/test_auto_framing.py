@@ -123,13 +123,13 @@ def test_the_overview_has_the_whole_front_in_its_picture_and_the_horizon_over_it
 
 
 def test_the_overview_stands_to_windward_with_the_sun_behind_it(fit_of):
-    found, run = fit_of("grass")  # wind from the west, and the sun in the south-west
-    shot = Shot(found.settings, run)
+    fit, run = fit_of("grass")  # wind from the west, and the sun in the south-west
+    shot = Shot(fit.settings, run)
     way = candidates.bearing(shot.for_camera("overview").paths[0]) % 360.0
     assert 200.0 < way < 320.0
-    assert "windward" in found.cameras["overview"]
-    found, run = fit_of("calm")  # there smoke on these wide cells decides, so the preference alone is tested
-    moving = front.find_front(Shot(found.settings, run))
+    assert "windward" in fit.cameras["overview"]
+    fit, run = fit_of("calm")  # there smoke on these wide cells decides, so the preference alone is tested
+    moving = front.find_front(Shot(fit.settings, run))
     way = max(overview._BEARINGS, key=lambda bearing: candidates.liking(moving, bearing))
     azimuth, height = sun.position(run, 0.0)
     assert height > 0.0
@@ -246,17 +246,17 @@ def test_smoke_on_all_sides_is_said_plainly():
 
 
 def test_a_head_that_smoke_hides_is_left_for_a_flank(fit_of, monkeypatch):
-    found, run = fit_of("grass")
-    moving = front.find_front(Shot(found.settings, run))
+    fit, run = fit_of("grass")
+    moving = front.find_front(Shot(fit.settings, run))
     share = visible_share.VisibleShare(0.9, 0.05, 0.0, -0.2, 0.5)
     monkeypatch.setattr(visible_share.Visible, "seen", lambda *given: share)
     assert chase.place(moving, visible_share.Visible(moving)).words.startswith("goes along with the head")
-    flanks = tried(clear=0.7)._replace(camera=found.settings.cameras[2])
+    flanks = tried(clear=0.7)._replace(camera=fit.settings.cameras[2])
     monkeypatch.setattr(flank, "tried", lambda *given: [flanks])
     placed = chase.place(moving, visible_share.Visible(moving))
     assert "smoke hides the head" in placed.words
     assert placed.camera.name == "chase"
-    assert placed.camera.rig == found.settings.cameras[2].rig
+    assert placed.camera.rig == fit.settings.cameras[2].rig
 
 
 def test_a_chase_of_a_small_fire_stays_as_low_as_it_says(fit_of):
@@ -282,13 +282,13 @@ def test_cameras_are_as_large_as_the_fire(fit_of):
     distance = {
         each: [
             np.linalg.norm(
-                (view := candidates.path(front.find_front(Shot(found.settings, run)), camera)).position
+                (view := candidates.path(front.find_front(Shot(fit.settings, run)), camera)).position
                 - view.target,
                 axis=1,
             ).mean()
-            for camera in found.settings.cameras[:3]
+            for camera in fit.settings.cameras[:3]
         ]
-        for each, (found, run) in (("small", fit_of("prescribed")), ("large", fit_of("mega")))
+        for each, (fit, run) in (("small", fit_of("prescribed")), ("large", fit_of("mega")))
     }
     assert distance["small"][0] < 700.0
     assert distance["large"][0] > 30_000.0
@@ -320,16 +320,16 @@ def _start(run):
 
 
 def test_cameras_are_placed_for_a_window_that_is_asked_for(fit_of):
-    found, run = fit_of("grass")
+    fit, run = fit_of("grass")
     start, end = _start(run) + timedelta(minutes=10), _start(run) + timedelta(minutes=15)
-    path, folder = found.settings.path, Path(run.path)
-    early = auto_framing.fit_folder(folder, path, found.settings.cache, Time(start, end))
+    path, folder = fit.settings.path, Path(run.path)
+    early = auto_framing.fit_folder(folder, path, fit.settings.cache, Time(start, end))
     assert (early.settings.time.start, early.settings.time.end) == (start, end)
-    assert early.settings.time.frames == found.settings.time.frames
+    assert early.settings.time.frames == fit.settings.time.frames
     assert "as asked; 48 frames, 76.6 times" in early.window
     _, words = window.choose(run, Time(start, end, frames=25, fps=24.0))
     assert words.endswith("as asked; 25 frames, 300 times real time")
-    assert early.settings.cameras != found.settings.cameras
+    assert early.settings.cameras != fit.settings.cameras
     assert min(early.shares.values()) >= candidates.LEAST
 
 
@@ -383,16 +383,16 @@ def test_the_file_reads_back_as_the_settings(fit_of, name):
 
 
 def test_the_file_is_short_and_every_key_in_it_is_explained(fit_of):
-    found, _ = fit_of("grass")
-    lines = found.text.splitlines()
+    fit, _ = fit_of("grass")
+    lines = fit.text.splitlines()
     assert len(lines) < 90
     assert max(map(len, lines)) <= 130
     explained = {line.split(" = ")[0] for line in lines if " = " in line and "  # " in line}
     assert {line.split(" = ")[0] for line in lines if " = " in line and line[0] != "#"} == explained
     assert {"start", "end", "frames", "fps", "method", "samples", "resolution"} <= explained
     assert "apron" not in explained, "nobody has to know"
-    for camera, words in found.cameras.items():
-        above = found.text.split(f'name = "{camera}"')[0].split("[[cameras]]")[-2].split("\n\n")[-1]
+    for camera, words in fit.cameras.items():
+        above = fit.text.split(f'name = "{camera}"')[0].split("[[cameras]]")[-2].split("\n\n")[-1]
         assert " ".join(above.replace("# ", "").split()).lower() == f"{words}.".lower()
 
 

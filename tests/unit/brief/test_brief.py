@@ -83,25 +83,25 @@ def test_leaflet_is_the_published_one_with_its_licence():
 
 
 def test_the_page_says_what_is_where_and_when(folder):
-    made = parts(folder)
+    parsed = parts(folder)
     assert (
         "16 Sep 2014 20:00 -08 to 17 Sep 2014 02:00 -08 (17 Sep 2014 04:00 to 17 Sep 2014 10:00 UTC)"
-        in made.text
+        in parsed.text
     )
-    assert "times are UTC and Etc/GMT+8" in made.text
+    assert "times are UTC and Etc/GMT+8" in parsed.text
     run = runs.open(folder)
     acres = np.isfinite(run.fuel_arrival_time()).sum() * 3600.0 / history.SQUARE_METRES_PER_ACRE
-    assert f"Burned area at the end {acres:,.0f} acres" in made.text
-    assert [each["utc"] for each in made.data["times"]][:: len(made.data["times"]) - 1] == [
+    assert f"Burned area at the end {acres:,.0f} acres" in parsed.text
+    assert [each["utc"] for each in parsed.data["times"]][:: len(parsed.data["times"]) - 1] == [
         "2014-09-17T04:00:00Z",
         "2014-09-17T10:00:00Z",
     ]
-    assert len(made.data["fronts"]["features"]) == len(made.data["times"])
-    layers = [attributes["data-layer"] for attributes, _ in made.all("img") if "data-layer" in attributes]
+    assert len(parsed.data["fronts"]["features"]) == len(parsed.data["times"])
+    layers = [attributes["data-layer"] for attributes, _ in parsed.all("img") if "data-layer" in attributes]
     assert layers == ["hillshade", "fuel", "arrival"]
-    assert "synthetic" not in made.text
-    assert "Exercise" not in made.text
-    assert not made.all("input", id="search")  # nothing to search
+    assert "synthetic" not in parsed.text
+    assert "Exercise" not in parsed.text
+    assert not parsed.all("input", id="search")  # nothing to search
 
 
 def test_a_synthetic_run_is_called_synthetic(own):
@@ -118,31 +118,31 @@ def test_lines_of_an_exercise_mark_the_page_without_stations(own, tmp_path, abou
     feature = {"type": "Feature", "properties": about | {"division": "A"}, "geometry": line}
     file = tmp_path / "allocation.geojson"
     file.write_text(json.dumps({"type": "FeatureCollection", "features": [feature]}))
-    made = parts(own, context=[("allocation", file)])
+    parsed = parts(own, context=[("allocation", file)])
     marks = ["SYNTHETIC", "EXERCISE"] if about else ["SYNTHETIC"]
-    assert made.data["marks"] == marks  # on the map of the screen
-    assert [inside for each, inside in made.all("text", **{"class": "mark"})] == marks  # on the sheet
-    ((_, stamp),) = made.all("div", **{"class": "stamp"})  # on each printed page
+    assert parsed.data["marks"] == marks  # on the map of the screen
+    assert [inside for each, inside in parsed.all("text", **{"class": "mark"})] == marks  # on the sheet
+    ((_, stamp),) = parsed.all("div", **{"class": "stamp"})  # on each printed page
     assert stamp == "".join(marks)
-    styles = "".join(inside for _, inside in made.all("style"))
+    styles = "".join(inside for _, inside in parsed.all("style"))
     assert ("SYNTHETIC \\2f  EXERCISE" in styles) == bool(about)
-    assert ("Exercise: not operational advice" in made.text) == bool(about)
+    assert ("Exercise: not operational advice" in parsed.text) == bool(about)
     noted = "\n".join(page.notes(briefing.gather(briefing.Request(own, context=[("allocation", file)]))))
     assert ("Exercise: not operational advice" in noted) == bool(about)
 
 
 @pytest.mark.parametrize(("order", "first", "second"), [("us", "acres", "ha"), ("metric", "ha", "acres")])
 def test_units_of_the_user_come_first(folder, gpkg, order, first, second):
-    made = parts(folder, stations=gpkg, sheet=SheetOptions(units=order))
-    assert re.search(rf"Burned area at the end [\d,]+ {first} \([\d,]+ {second}\)", made.text)
-    assert re.search(rf"^[\d,]+ {first} \(", made.data["times"][-1]["area"])
-    axes = [inside for _, inside in made.all("text", **{"class": "unit end"})]
+    parsed = parts(folder, stations=gpkg, sheet=SheetOptions(units=order))
+    assert re.search(rf"Burned area at the end [\d,]+ {first} \([\d,]+ {second}\)", parsed.text)
+    assert re.search(rf"^[\d,]+ {first} \(", parsed.data["times"][-1]["area"])
+    axes = [inside for _, inside in parsed.all("text", **{"class": "unit end"})]
     assert axes == [first]
-    far = next(each["text"] for each in made.data["points"] if each["name"] == "Far")
+    far = next(each["text"] for each in parsed.data["points"] if each["name"] == "Far")
     pair = r"[\d,.]+ mi \([\d,.]+ km\)" if order == "us" else r"[\d,.]+ km \([\d,.]+ mi\)"
     assert re.search(f"nearest fire {pair}", far)
-    assert ("tank at least 500 gal (1,893 l)" in made.text) == (order == "us")
-    assert ("tank at least 1,893 l (500 gal)" in made.text) == (order == "metric")
+    assert ("tank at least 500 gal (1,893 l)" in parsed.text) == (order == "us")
+    assert ("tank at least 1,893 l (500 gal)" in parsed.text) == (order == "metric")
 
 
 def test_units_of_one_number_are_those_of_their_definition():
@@ -224,19 +224,19 @@ def allocated(tmp_path):
 
 
 def test_map_features_are_layers_of_the_interactive_map(folder, allocated):
-    made = parts(folder, context=[("allocation", allocated)])
-    assert made.all("div", **{"data-layer": "context-0"})
-    line, sent, lost, spot = made.data["context"]["context-0"]  # the fifth lies outside of the map
+    parsed = parts(folder, context=[("allocation", allocated)])
+    assert parsed.all("div", **{"data-layer": "context-0"})
+    line, sent, lost, spot = parsed.data["context"]["context-0"]  # the fifth lies outside of the map
     assert line["lines"] == [[[38.9, -120.62], [38.91, -120.58]]]
     assert (line["text"], line["colour"]) == ("Planned Line", map_symbols.LINES["Planned Line"].colour)
     assert line["dashes"] == "10 7"
     assert lost["colour"] == map_symbols.FIRE_EDGE
     assert sent["text"] == "allocation: E<b>31"
     assert (spot["text"], spot["symbol"]) == ("Division Break: A/B", "Division Break")
-    assert made.data["symbols"] == {"Division Break": map_symbols.POINTS["Division Break"]} | {
+    assert parsed.data["symbols"] == {"Division Break": map_symbols.POINTS["Division Break"]} | {
         "Named place": map_symbols.POINTS["Named place"]
     }
-    ((_, legend),) = made.all("div", **{"data-layer": "context-0"})
+    ((_, legend),) = parsed.all("div", **{"data-layer": "context-0"})
     assert "Planned Line" in legend
     assert "Line Not Held" in legend
 
@@ -252,8 +252,8 @@ def test_each_division_has_a_table(folder, allocated):
 
 
 def test_nothing_can_be_loaded_or_sent(folder, gpkg):
-    made = parts(folder, stations=gpkg)
-    ((policy, _),) = made.all("meta", **{"http-equiv": "Content-Security-Policy"})
+    parsed = parts(folder, stations=gpkg)
+    ((policy, _),) = parsed.all("meta", **{"http-equiv": "Content-Security-Policy"})
     rules = dict(rule.strip().split(" ", 1) for rule in policy["content"].split(";"))
     assert rules == {
         "default-src": "'none'",
@@ -264,7 +264,7 @@ def test_nothing_can_be_loaded_or_sent(folder, gpkg):
         "base-uri": "'none'",
         "form-action": "'none'",
     }
-    for tag, attributes, inside in made.elements:
+    for tag, attributes, inside in parsed.elements:
         assert tag not in ("iframe", "object", "embed", "form", "base")
         assert attributes.get("src", "data:").startswith("data:")
         assert not any(name.startswith("on") for name in attributes)
@@ -275,7 +275,7 @@ def test_nothing_can_be_loaded_or_sent(folder, gpkg):
         if tag == "a" and not attributes["href"].startswith("#"):
             assert attributes["href"].startswith("https://")
             assert "noreferrer" in attributes["rel"]
-    assert "sourceMappingURL" not in "".join("".join(inside) for _, _, inside in made.elements)
+    assert "sourceMappingURL" not in "".join("".join(inside) for _, _, inside in parsed.elements)
 
 
 def test_hostile_texts_of_files_stay_texts(own, tmp_path):
@@ -317,18 +317,18 @@ def test_json_in_a_script_cannot_end_it():
 
 
 def test_each_exercise_row_says_exercise(folder, gpkg):
-    made = parts(folder, stations=gpkg)
-    assert made.text.count("Exercise: not operational advice") == 2  # of the page, and of its list
-    rows = [inside for attributes, inside in made.all("tr") if attributes.get("class") == "resource"]
-    groups = [inside for attributes, inside in made.all("tbody") if "data-id" in attributes]
+    parsed = parts(folder, stations=gpkg)
+    assert parsed.text.count("Exercise: not operational advice") == 2  # of the page, and of its list
+    rows = [inside for attributes, inside in parsed.all("tr") if attributes.get("class") == "resource"]
+    groups = [inside for attributes, inside in parsed.all("tbody") if "data-id" in attributes]
     assert len(rows) == 4
     assert len(groups) == 3
     assert all("exercise" in inside for inside in rows)
     assert all("exercise" in inside for inside in groups)
-    assert made.text.count("source: Made up for tests") == 1  # below the caption, not in each row
+    assert parsed.text.count("source: Made up for tests") == 1  # below the caption, not in each row
     assert not any("Made up for tests" in inside for inside in groups)
-    assert all(point["exercise"] for point in made.data["points"])
-    assert "Made up for tests, data of 2026-01-01; licence: CC0-1.0" in made.text
+    assert all(point["exercise"] for point in parsed.data["points"])
+    assert "Made up for tests, data of 2026-01-01; licence: CC0-1.0" in parsed.text
 
 
 def test_availability_is_that_of_the_runs_time(folder, gpkg):
@@ -365,14 +365,14 @@ def test_printed_windows_fit_a_line(folder, gpkg):
                     columns = "resource, begins, ends, status, area"
                     base.execute(f"INSERT INTO availability ({columns}) VALUES (?, ?, ?, ?, ?)", row)
     base.close()
-    made = parts(folder, stations=gpkg)
-    ((_, table),) = made.all("table", **{"class": "resources lines"})
+    parsed = parts(folder, stations=gpkg)
+    ((_, table),) = parsed.all("table", **{"class": "resources lines"})
     assert "(Etc/GMT+8), area North; times stated as unavailable are omitted" in table
     assert "16 Sep 21:00-23:00exercise" in table
     assert "16 Sep 17:00-21:00 unavailable; 16 Sep 23:00 to 17 Sep 15:00 unavailable" in table
     assert table.count("North") == 1
     assert table.count("unavailable") == 3
-    titles = [inside for attributes, inside in made.all("th") if attributes["scope"] == "rowgroup"]
+    titles = [inside for attributes, inside in parsed.all("th") if attributes["scope"] == "rowgroup"]
     assert titles == ["Alpha", "Far"]  # Bravo has no resources
 
 
@@ -402,19 +402,19 @@ def test_the_fire_reaches_a_place_between_the_times_of_the_cells_around(folder):
     latitude, longitude = run.fuel_latitude[row], run.fuel_longitude[column]
     never_row, never_column = np.argwhere(np.isnan(arrival))[0]
     far = float(run.fuel_latitude[never_row]), float(run.fuel_longitude[never_column])
-    found = reached.find(
+    arrivals = reached.find(
         run, [latitude + 1e-4, *far[:1], 10.0], [longitude - 1e-4 + 360.0, far[1], 10.0], "UTC"
     )
-    assert [each.state for each in found] == ["reached", "not_reached", "outside"]
+    assert [each.state for each in arrivals] == ["reached", "not_reached", "outside"]
     sampled = fire_arrival.sample(run, [latitude + 1e-4], [longitude - 1e-4])
-    assert found[0].time == sampled.time[0]
+    assert arrivals[0].time == sampled.time[0]
     burned = np.argwhere(np.isfinite(arrival))
     metres = whole_run.areas.metres_per_degree(38.9)
     away = np.hypot(
         (run.fuel_latitude[burned[:, 0]] - far[0]) * metres[0],
         (run.fuel_longitude[burned[:, 1]] - far[1]) * metres[1],
     ).min()
-    assert found[1].distance == pytest.approx(away, rel=1e-3)
+    assert arrivals[1].distance == pytest.approx(away, rel=1e-3)
 
 
 def test_places_burned_before_the_run_began_are_told(folder):
@@ -461,15 +461,15 @@ def test_burned_area_stands_beside_reports(make_run):
 
 
 def test_the_curve_has_its_points_where_the_axes_say(folder):
-    found = briefing.gather(briefing.Request(folder))
-    reported = [{"time": found.fronts[-1].utc.isoformat(), "reported": 5e6, "run": 1.0, "source": "<b>"}]
-    place = curve.axes(found.fronts, reported)
-    drawn = PageParts(curve.svg(found.fronts, reported, found.zone))
+    gathered = briefing.gather(briefing.Request(folder))
+    reported = [{"time": gathered.fronts[-1].utc.isoformat(), "reported": 5e6, "run": 1.0, "source": "<b>"}]
+    place = curve.axes(gathered.fronts, reported)
+    drawn = PageParts(curve.svg(gathered.fronts, reported, gathered.zone))
     ((dot, _),) = drawn.all("circle")
-    assert float(dot["cx"]) == place.x(found.fronts[-1].utc) == curve.WIDTH - curve.RIGHT
+    assert float(dot["cx"]) == place.x(gathered.fronts[-1].utc) == curve.WIDTH - curve.RIGHT
     assert float(dot["cy"]) == place.y(5e6)
     ((line, _),) = drawn.all("polyline")
-    assert len(line["points"].split()) == len(found.fronts)
+    assert len(line["points"].split()) == len(gathered.fronts)
     assert "(<b>)" in drawn.text
 
 
@@ -514,13 +514,13 @@ def rendered(out, folder, frames=5, clip=1000, **other):
 
 
 def test_a_films_frames_are_made_smaller_and_its_clips_come_along(folder, tmp_path):
-    made = parts(folder, film=rendered(tmp_path / "film", folder))
-    pictures = [attributes for attributes, _ in made.all("img") if "data-view" in attributes]
+    parsed = parts(folder, film=rendered(tmp_path / "film", folder))
+    pictures = [attributes for attributes, _ in parsed.all("img") if "data-view" in attributes]
     assert len(pictures) == film.EACH
     assert all(attributes["src"].startswith("data:image/jpeg;base64,") for attributes in pictures)
-    assert "drone, rgb 16 Sep 2014 20:00 -08 (17 Sep 04:00 UTC)" in made.text
-    assert "17 Sep 2014 00:00 -08" in made.text
-    ((clip, _),) = made.all("video")
+    assert "drone, rgb 16 Sep 2014 20:00 -08 (17 Sep 04:00 UTC)" in parsed.text
+    assert "17 Sep 2014 00:00 -08" in parsed.text
+    ((clip, _),) = parsed.all("video")
     assert clip["src"].startswith("data:video/mp4;base64,eHh4")
     shown = film.read(tmp_path / "film", {}, 10_000)
     import base64
@@ -590,15 +590,15 @@ def test_a_file_that_is_none_of_places_is_one_clear_error(folder, tmp_path):
 
 
 def test_resources_say_what_is_known_of_them(gpkg):
-    found = reading.read(gpkg)
-    engine, crew = found.resources_of[1]
-    assert facts.facts(found, engine, "metric") == (
+    station_file = reading.read(gpkg)
+    engine, crew = station_file.resources_of[1]
+    assert facts.facts(station_file, engine, "metric") == (
         "tank at least 1,893 l (500 gal), pump at least 568 l/min (150 gal/min), people at least 3, "
         "speed 60 km/h (37.3 mph), "
         "mobilises in 5 min, cost 210 USD per hour, mode attack, works at night"
     )
-    assert "tank at least 500 gal (1,893 l), pump" in facts.facts(found, engine, "us")
-    assert "people at least 18" in facts.facts(found, crew)
+    assert "tank at least 500 gal (1,893 l), pump" in facts.facts(station_file, engine, "us")
+    assert "people at least 18" in facts.facts(station_file, crew)
 
 
 @pytest.mark.parametrize("odd", [{"cells": 1}, {"cells": 2}, {"times": (0.0,)}, {"arrival": False}], ids=str)
@@ -609,23 +609,23 @@ def test_small_runs_have_a_page_too(tmp_path, odd):
 
 def test_a_place_on_the_other_side_of_the_antimeridian_is_drawn_beside_the_run(tmp_path):
     run = whole_run.write(tmp_path / "run", cells=60, at=(52.0, 179.999))
-    made = parts(run, stations=small_stations.briefed(tmp_path / "p.gpkg", [("Alpha", 52.0, -179.9995)]))
-    (point,) = made.data["points"]
+    parsed = parts(run, stations=small_stations.briefed(tmp_path / "p.gpkg", [("Alpha", 52.0, -179.9995)]))
+    (point,) = parsed.data["points"]
     assert point["longitude"] == pytest.approx(180.0005)
     assert point["state"] != "outside"
-    (_, west), (_, east) = made.data["bounds"]
+    (_, west), (_, east) = parsed.data["bounds"]
     assert west < 180.0005 < east
-    assert "mlon=-179.99950" in next(a["href"] for a, text in made.all("a") if text == "Open in web map")
+    assert "mlon=-179.99950" in next(a["href"] for a, text in parsed.all("a") if text == "Open in web map")
 
 
 def test_the_page_says_its_size_and_has_a_limit(folder):
-    found = briefing.gather(briefing.Request(folder))
-    made = page.html(found, 10_000_000)
-    assert len(made.encode()) < 1_000_000  # of a small run: Leaflet is 0.16 MB of it
-    told = f"This page is a single file of {html_text.size(len(made.encode()))} and loads no other files."
-    assert told in PageParts(made).text
+    gathered = briefing.gather(briefing.Request(folder))
+    text = page.html(gathered, 10_000_000)
+    assert len(text.encode()) < 1_000_000  # of a small run: Leaflet is 0.16 MB of it
+    told = f"This page is a single file of {html_text.size(len(text.encode()))} and loads no other files."
+    assert told in PageParts(text).text
     with pytest.raises(UsageError, match=r"the page has \d+ kB, above the limit of 100 kB; .* --limit"):
-        page.html(found, 100_000)
+        page.html(gathered, 100_000)
 
 
 def test_sources_and_licences_are_all_named(folder, gpkg):
@@ -672,23 +672,23 @@ def test_a_limit_below_any_page_is_refused_before_the_work(folder, tmp_path, mon
 
 
 def test_controls_and_tables_have_names_and_the_page_a_language(folder, gpkg):
-    made = parts(folder, stations=gpkg)
-    assert made.all("html")[0][0]["lang"] == "en"
-    labelled = "".join(inside for _, inside in made.all("label"))
+    parsed = parts(folder, stations=gpkg)
+    assert parsed.all("html")[0][0]["lang"] == "en"
+    labelled = "".join(inside for _, inside in parsed.all("label"))
     for tag in ("input", "select", "button", "video"):
-        for attributes, inside in made.all(tag):
+        for attributes, inside in parsed.all(tag):
             named = attributes.get("aria-label") or inside.strip() or attributes.get("type") == "checkbox"
             assert named, (tag, attributes)
     assert all(title in labelled for title in ("Front at this time", "Fire arrival time", "Fuel load"))
-    assert all(attributes["alt"] for attributes, _ in made.all("img"))
-    assert all(attributes["scope"] in ("col", "rowgroup") for attributes, _ in made.all("th"))
-    assert len(made.all("caption")) == len(made.all("table")) == 3
-    ((_, title),) = made.all("h1")
+    assert all(attributes["alt"] for attributes, _ in parsed.all("img"))
+    assert all(attributes["scope"] in ("col", "rowgroup") for attributes, _ in parsed.all("th"))
+    assert len(parsed.all("caption")) == len(parsed.all("table")) == 3
+    ((_, title),) = parsed.all("h1")
     assert title
-    levels = [int(tag[1]) for tag, _, _ in made.elements if re.fullmatch("h[1-6]", tag)]
+    levels = [int(tag[1]) for tag, _, _ in parsed.elements if re.fullmatch("h[1-6]", tag)]
     assert all(b - a <= 1 for a, b in itertools.pairwise(levels))
-    assert not any(int(attributes.get("tabindex", 0)) > 0 for _, attributes, _ in made.elements)
-    ids = [attributes["id"] for _, attributes, _ in made.elements if "id" in attributes]
+    assert not any(int(attributes.get("tabindex", 0)) > 0 for _, attributes, _ in parsed.elements)
+    ids = [attributes["id"] for _, attributes, _ in parsed.elements if "id" in attributes]
     assert len(ids) == len(set(ids))
 
 

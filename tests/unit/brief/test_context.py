@@ -62,13 +62,13 @@ def test_categories_of_the_standard_choose_the_symbol(tmp_path):
         ("Point", [-120.4, 38.95], {"FeatureCategory": "Something new"}),
         ("Point", [-100.0, 38.95], {"FeatureCategory": "Helibase"}),
     )
-    made = content(context.read([("operations", file)]))
-    assert list(made.legend) == ["Completed Dozer Line", "Completed Hand Line", "Fire Origin", "operations"]
-    crosses = [each for each in made.lines if "rotate" in each and "L0.9,0.8" in each]
+    drawn = content(context.read([("operations", file)]))
+    assert list(drawn.legend) == ["Completed Dozer Line", "Completed Hand Line", "Fire Origin", "operations"]
+    crosses = [each for each in drawn.lines if "rotate" in each and "L0.9,0.8" in each]
     x, y = FRAME.place([38.8, 38.9], [-120.6, -120.4])
     assert len(crosses) == pytest.approx(np.hypot(np.ptp(x), np.ptp(y)) / 1.9, abs=1)
-    assert ">H</text>" in "".join(made.lines)
-    assert "Sep 13" in "".join(made.labels)
+    assert ">H</text>" in "".join(drawn.lines)
+    assert "Sep 13" in "".join(drawn.labels)
 
 
 @pytest.mark.parametrize("name", map_symbols.POINTS)

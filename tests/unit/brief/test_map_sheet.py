@@ -23,7 +23,7 @@ PREPARED = datetime(2014, 9, 17, 12, tzinfo=UTC)
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory):
+def gathered(tmp_path_factory):
     """Content of a page with stations, 6 hours of fire."""
     folder = tmp_path_factory.mktemp("sheet")
     run = whole_run.write(
@@ -36,9 +36,9 @@ def found(tmp_path_factory):
     return briefing.gather(briefing.Request(run, stations=gpkg))
 
 
-def drawn(found, **options):
+def drawn(gathered, **options):
     chosen = SheetOptions(**{"prepared": PREPARED} | options)
-    return map_sheet.draw(found, chosen, Titles.of(found.run, chosen, found.zone))
+    return map_sheet.draw(gathered, chosen, Titles.of(gathered.run, chosen, gathered.zone))
 
 
 def words(sheet):
@@ -47,8 +47,8 @@ def words(sheet):
 
 @pytest.mark.parametrize("size", list(paper.SIZES))
 @pytest.mark.parametrize("orientation", ["portrait", "landscape"])
-def test_a_sheet_has_the_nine_elements_of_the_standard(found, size, orientation):
-    sheet = drawn(found, paper=size, orientation=orientation, author="A. Author", incident="Test Fire")
+def test_a_sheet_has_the_nine_elements_of_the_standard(gathered, size, orientation):
+    sheet = drawn(gathered, paper=size, orientation=orientation, author="A. Author", incident="Test Fire")
     text = words(sheet)
     assert f"Scale 1:{sheet.frame.ratio:,.0f}" in text
     assert len(re.findall('class="scale-bar"', sheet.svg)) == 2
@@ -67,25 +67,25 @@ def test_a_sheet_has_the_nine_elements_of_the_standard(found, size, orientation)
 
 
 @pytest.mark.parametrize("size", list(paper.SIZES))
-def test_the_map_fills_its_sheet(found, size):
-    sheet = drawn(found, paper=size)
+def test_the_map_fills_its_sheet(gathered, size):
+    sheet = drawn(gathered, paper=size)
     width, height = sheet.paper.area
     assert sheet.frame.width * sheet.frame.height > 0.5 * width * height
-    assert (sheet.paper.width > sheet.paper.height) == (map_sheet.orientation(found, size) == "landscape")
+    assert (sheet.paper.width > sheet.paper.height) == (map_sheet.orientation(gathered, size) == "landscape")
 
 
-def test_scale_bars_are_as_long_as_they_say(found):
-    sheet = drawn(found)
+def test_scale_bars_are_as_long_as_they_say(gathered):
+    sheet = drawn(gathered)
     for metres, inside in re.findall(r'data-metres="([\d.]+)">(.*?)</g>', sheet.svg):
         widths = [float(each) for each in re.findall(r'<rect x="[\d.]+" y="[\d.]+" width="([\d.]+)"', inside)]
         assert sum(widths) * sheet.frame.metres == pytest.approx(float(metres), rel=1e-3)
 
 
-def test_metric_units_come_first_on_request(found):
-    assert words(drawn(found, units="metric")).index("1 cm =") < words(drawn(found, units="metric")).index(
-        "1 in ="
-    )
-    assert words(drawn(found)).index("1 in =") < words(drawn(found)).index("1 cm =")
+def test_metric_units_come_first_on_request(gathered):
+    assert words(drawn(gathered, units="metric")).index("1 cm =") < words(
+        drawn(gathered, units="metric")
+    ).index("1 in =")
+    assert words(drawn(gathered)).index("1 in =") < words(drawn(gathered)).index("1 cm =")
 
 
 def test_places_lie_where_proj_has_them():
@@ -109,16 +109,16 @@ def test_scales_are_those_of_common_maps():
     ]  # fmt: skip
 
 
-def test_the_national_grid_names_its_squares(found):
-    text = words(drawn(found, grid="usng"))
+def test_the_national_grid_names_its_squares(gathered):
+    text = words(drawn(gathered, grid="usng"))
     assert "US National Grid (USNG/MGRS) every" in text
     assert "10S GJ" in text
     assert "′ N" not in text
-    assert "graticule" not in drawn(found, grid="none").svg
+    assert "graticule" not in drawn(gathered, grid="none").svg
 
 
-def test_the_legend_has_what_the_map_has_and_no_more(found):
-    content = sheet_map.draw(found, drawn(found).frame, 1.0)
+def test_the_legend_has_what_the_map_has_and_no_more(gathered):
+    content = sheet_map.draw(gathered, drawn(gathered).frame, 1.0)
     assert [text for text in content.legend if "Observed" in text or "Road" in text] == []
     edge = next(text for text in content.legend if text.startswith("Simulated fire edge, "))
     for each in (content.legend[edge], "".join(content.lines)):
@@ -127,17 +127,17 @@ def test_the_legend_has_what_the_map_has_and_no_more(found):
     assert all(
         sheet_map.BURNED in each for each in (content.legend["Station, burned by the end"], content.points[0])
     )
-    assert set(base_map.colours()) <= set(re.findall("#[0-9a-f]{6}", drawn(found).svg))
+    assert set(base_map.colours()) <= set(re.findall("#[0-9a-f]{6}", drawn(gathered).svg))
 
 
-def test_invented_content_is_marked_in_large_letters(found):
+def test_invented_content_is_marked_in_large_letters(gathered):
     marks = lambda sheet: [inside for each, inside in PageParts(sheet.svg).all("text", **{"class": "mark"})]  # noqa: E731
-    assert found.marks == ("EXERCISE",)
-    sheet = drawn(found)
+    assert gathered.marks == ("EXERCISE",)
+    sheet = drawn(gathered)
     assert marks(sheet) == ["EXERCISE"]
     size = float(re.search(r'class="mark" x="[\d.]+" y="[\d.]+" font-size="([\d.]+)"', sheet.svg)[1])
     assert size * len("EXERCISE") * 0.6 > 0.4 * sheet.frame.width
-    assert marks(drawn(replace(found, station_file=None, points=[]))) == []
+    assert marks(drawn(replace(gathered, station_file=None, points=[]))) == []
 
 
 def test_header_and_footer_cannot_end_their_rule():
@@ -149,7 +149,7 @@ def test_header_and_footer_cannot_end_their_rule():
 
 @pytest.mark.parametrize("size", ["a4", "letter"])
 @pytest.mark.parametrize("name", ["King", "North Complex " * 12, "W" * 120])
-def test_header_and_footer_fit_next_to_each_other(found, size, name):
+def test_header_and_footer_fit_next_to_each_other(gathered, size, name):
     period = (
         "Wednesday, 17 September 2014 06:00 Pacific Daylight Time to 18 September 2014 06:00 Pacific Time"
     )
@@ -157,7 +157,7 @@ def test_header_and_footer_fit_next_to_each_other(found, size, name):
         name, "", period, "17 Sep 2014 04:00 PDT", "16 Sep 2014 22:00 PDT (start of the run)", "9 h"
     )
     sheet = Paper.named(size, "portrait")
-    style = paper.style(sheet, page._running(found, titles))
+    style = paper.style(sheet, page._running(gathered, titles))
     width = {}
     for box, text in re.findall(r'@([a-z]+-[a-z]+) { content: "((?:[^"])*)"; ', style):
         plain = re.sub(r"\\([0-9a-f]+) ", lambda each: chr(int(each[1], 16)), text)
@@ -169,34 +169,34 @@ def test_header_and_footer_fit_next_to_each_other(found, size, name):
     assert max(width["bottom-left"], paper.measure("Page 100 of 100")) < side
 
 
-def test_what_lies_outside_the_run_is_in_the_legend(found):
+def test_what_lies_outside_the_run_is_in_the_legend(gathered):
     middle = MapFrame.fitted(Box(38.895, -120.605, 38.905, -120.595), (0.0, 0.0, 100.0, 100.0))
     beyond = MapFrame.fitted(Box(38.6, -120.8, 39.2, -120.4), (0.0, 0.0, 100.0, 100.0))
     for frame, outside in ((middle, False), (beyond, True)):
-        assert base_map.reaches_outside(found.run, frame) == outside
-        assert (sheet_map.OUTSIDE in sheet_map.draw(found, frame, 1.0).legend) == outside
-    picture = Image.open(io.BytesIO(base_map.picture(found.run, found.elevation, beyond))).convert("L")
+        assert base_map.reaches_outside(gathered.run, frame) == outside
+        assert (sheet_map.OUTSIDE in sheet_map.draw(gathered, frame, 1.0).legend) == outside
+    picture = Image.open(io.BytesIO(base_map.picture(gathered.run, gathered.elevation, beyond))).convert("L")
     corner = np.asarray(picture)[:40, -40:]
     assert corner.max() - corner.min() > 30  # hatched
 
 
-def test_a_sheet_has_one_abbreviation_of_local_time(found):
+def test_a_sheet_has_one_abbreviation_of_local_time(gathered):
     zone = "America/Los_Angeles"
-    november = Titles.of(found.run, SheetOptions(prepared=datetime(2026, 11, 27, 8, 53, tzinfo=UTC)), zone)
+    november = Titles.of(gathered.run, SheetOptions(prepared=datetime(2026, 11, 27, 8, 53, tzinfo=UTC)), zone)
     assert november.period == "16 Sep 2014 21:00 PDT to 17 Sep 2014 03:00 PDT"
     assert november.prepared == "27 Nov 2026 08:53 UTC"  # 00:53 PST
     assert november.issued == "16 Sep 2014 21:00 PDT (start of the run)"
-    june = Titles.of(found.run, SheetOptions(prepared=datetime(2026, 6, 27, 8, 53, tzinfo=UTC)), zone)
+    june = Titles.of(gathered.run, SheetOptions(prepared=datetime(2026, 6, 27, 8, 53, tzinfo=UTC)), zone)
     assert june.prepared == "27 Jun 2026 01:53 PDT"
     night = datetime(2014, 11, 2, 6, tzinfo=UTC), datetime(2014, 11, 2, 12, tzinfo=UTC)
-    changed = Titles.of(found.run, SheetOptions(prepared=night[1], period=night), zone)
+    changed = Titles.of(gathered.run, SheetOptions(prepared=night[1], period=night), zone)
     assert changed.period == "1 Nov 2014 23:00 PDT to 2 Nov 2014 04:00 PST"
     assert changed.prepared == "2 Nov 2014 04:00 PST"
 
 
-def test_labels_of_the_grid_do_not_overlap_at_corners(found):
+def test_labels_of_the_grid_do_not_overlap_at_corners(gathered):
     for grid in ("latlong", "usng"):
-        sheet = drawn(found, grid=grid)
+        sheet = drawn(gathered, grid=grid)
         frame, boxes = sheet.frame, []
         for each, inside in PageParts(sheet.svg).all("text", **{"class": "graticule"}):
             x, y, size = (float(each[name]) for name in ("x", "y", "font-size"))
@@ -211,8 +211,8 @@ def test_labels_of_the_grid_do_not_overlap_at_corners(found):
         assert len(boxes) >= 4
 
 
-def test_a_town_at_its_station_is_drawn_once(found):
-    content = sheet_map.Content(drawn(found).frame, 1.0)
+def test_a_town_at_its_station_is_drawn_once(gathered):
+    content = sheet_map.Content(drawn(gathered).frame, 1.0)
     content.point("Station", 38.9, -120.6, "Station", ["Exercise base Camino", "not reached"])
     content.point("Named place", 38.9, -120.6, "Named place", ["Camino", "not reached"])
     assert len(content.points) == 1
@@ -221,18 +221,20 @@ def test_a_town_at_its_station_is_drawn_once(found):
     assert len(content.points) == 2
 
 
-def test_a_point_has_its_name_if_there_is_no_space_for_more(found):
-    content = sheet_map.Content(drawn(found).frame, 1.0)
+def test_a_point_has_its_name_if_there_is_no_space_for_more(gathered):
+    content = sheet_map.Content(drawn(gathered).frame, 1.0)
     _, y = (float(each) for each in content.frame.place(38.9, -120.6))
     content.taken += [(0.0, 0.0, 1e3, y - 3.0), (0.0, y + 2.0, 1e3, 1e3)]
     content.point("Station", 38.9, -120.6, "Station", ["Alpha", "not reached, nearest fire 0.1 mi (160 m)"])
     assert [re.sub("<[^>]+>", "", each) for each in content.labels] == ["Alpha", "Alpha"]  # halo and text
 
 
-def test_the_age_of_a_forecast(found):
+def test_the_age_of_a_forecast(gathered):
     options = SheetOptions(prepared=PREPARED, issued=datetime(2014, 9, 17, 6, 30, tzinfo=UTC))
-    assert Titles.of(found.run, options, "UTC").age == "5.5 h"
+    assert Titles.of(gathered.run, options, "UTC").age == "5.5 h"
     assert (
-        Titles.of(found.run, replace(options, prepared=datetime(2014, 9, 29, 6, 30, tzinfo=UTC)), "UTC").age
+        Titles.of(
+            gathered.run, replace(options, prepared=datetime(2014, 9, 29, 6, 30, tzinfo=UTC)), "UTC"
+        ).age
         == "12 days"
     )

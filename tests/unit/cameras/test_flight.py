@@ -181,10 +181,10 @@ def test_ridges_before_a_long_film_are_those_before_each_of_its_frames(run):
     keys = (CameraKey(0.0, 38.85, -120.65, 100.0, "ahead"), CameraKey(1.0, 38.97, -120.48, 100.0, "ahead"))
     shot, flown_way = flown(run, 5000, keys=keys)
     target = shot.ground.point([38.90], [-120.60], 200.0) + np.zeros((5000, 1))
-    found = hidden(shot.ground, flown_way.position, target)
+    angles = hidden(shot.ground, flown_way.position, target)
     parts = [slice(begin, begin + 500) for begin in range(0, 5000, 500)]
     each = [hidden(shot.ground, flown_way.position[part], target[part]) for part in parts]
     exact = np.concatenate(each)
     assert exact.max() > 100.0
-    assert np.abs(found - exact).mean() < 0.01 * exact.max()
-    assert np.abs(found - exact).max() < 0.25 * exact.max()
+    assert np.abs(angles - exact).mean() < 0.01 * exact.max()
+    assert np.abs(angles - exact).max() < 0.25 * exact.max()

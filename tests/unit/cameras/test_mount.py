@@ -108,14 +108,14 @@ def test_classes_and_numbers_survive_smoke_exactly():
     clear = rng.uniform(0.001, 1.0, kind.shape).astype(np.float32)
     code = np.stack([number % 4096, np.ones(kind.shape), kind + 8 * (number // 4096)], axis=-1)
     pixels = (code.astype(np.float32) * clear[..., None]).astype(np.float32)
-    found, instance, through, surface = masks.classes(pixels)
+    classes, instance, through, surface = masks.classes(pixels)
     assert np.array_equal(instance, number)
-    assert np.array_equal(found[clear > 0.5], kind[clear > 0.5])
-    assert np.all(found[clear < 0.5] == masks.SMOKE)
+    assert np.array_equal(classes[clear > 0.5], kind[clear > 0.5])
+    assert np.all(classes[clear < 0.5] == masks.SMOKE)
     assert np.array_equal(through, clear)
     assert np.array_equal(surface, kind)  # also behind smoke
-    found, instance, _, _ = masks.classes(np.zeros((2, 2, 3), np.float32))
-    assert np.all(found == masks.SMOKE)
+    classes, instance, _, _ = masks.classes(np.zeros((2, 2, 3), np.float32))
+    assert np.all(classes == masks.SMOKE)
     assert np.all(instance == 0)
 
 
@@ -174,30 +174,30 @@ def seen(sidecar, latitude, longitude, height):
 def test_a_sidecar_alone_says_where_a_place_is_seen(shot, name):
     cameras = [DRONE, Camera("two", Mounted("drone", 50.0)), Camera("sat", Satellite(swath=4000.0))]
     cameras += [Camera("goes", Satellite(swath=4000.0, geostationary=-137.0)), Camera("map", Minimap())]
-    made = shot(*cameras).for_camera(name)
-    (view,) = made.paths
-    found = json.loads(json.dumps(pose.describe(made, view, 3)))
+    film = shot(*cameras).for_camera(name)
+    (view,) = film.paths
+    sidecar = json.loads(json.dumps(pose.describe(film, view, 3)))
     side = view.halves[2] / (view.meet or 1.0) * [0.5, 0.25]  # in the middle of the upper right quarter
     far = 800.0 if name in ("drone", "two") else np.linalg.norm(view.target[2] - view.position[2])
     across = side * (far if view.perspective or view.meet else 1.0)
     aim = view.position[2] + view.rotation[2] @ np.append(across, -far)
-    place = (float(value[0]) for value in made.local_frame.reverse(aim[None]))
-    assert seen(found, *place) == pytest.approx((0.75 * 320, 0.375 * 180), abs=0.01)
-    assert found["pose"]["height_above_ground"] > 200.0
-    assert found["time_utc"].endswith("+00:00")
-    assert set(found["files"]) == {"rgb", "depth", "thermal"}
-    assert found["files"]["depth"] == {"exr": f"../../{name}/depth/{name}_depth_000003.exr"}
+    place = (float(value[0]) for value in film.local_frame.reverse(aim[None]))
+    assert seen(sidecar, *place) == pytest.approx((0.75 * 320, 0.375 * 180), abs=0.01)
+    assert sidecar["pose"]["height_above_ground"] > 200.0
+    assert sidecar["time_utc"].endswith("+00:00")
+    assert set(sidecar["files"]) == {"rgb", "depth", "thermal"}
+    assert sidecar["files"]["depth"] == {"exr": f"../../{name}/depth/{name}_depth_000003.exr"}
 
 
 def test_heading_pitch_and_roll_are_those_of_the_camera(shot):
     key = CameraKey(0.0, 38.900, -120.599, 300.0, "point", 38.900, -120.589, 300.0)
-    made = shot(Camera("drone", Drone(keys=(key,))))
-    found = pose.pose(made, made.paths[0], 1)
+    film = shot(Camera("drone", Drone(keys=(key,))))
+    found = pose.pose(film, film.paths[0], 1)
     assert found["heading"] == pytest.approx(90.0, abs=0.05)
     assert found["roll"] == pytest.approx(0.0, abs=0.05)
-    right, up, back = np.moveaxis(made.paths[0].rotation, -1, 0)
-    tilted = replace(made.paths[0], rotation=np.stack([-up, right, back], axis=-1))
-    assert pose.pose(made, tilted, 1)["roll"] == pytest.approx(90.0, abs=0.1)  # its right edge is down
+    right, up, back = np.moveaxis(film.paths[0].rotation, -1, 0)
+    tilted = replace(film.paths[0], rotation=np.stack([-up, right, back], axis=-1))
+    assert pose.pose(film, tilted, 1)["roll"] == pytest.approx(90.0, abs=0.1)  # its right edge is down
 
 
 def test_a_sidecar_is_made_again_when_passes_change_and_pictures_are_not():
@@ -219,20 +219,20 @@ def test_a_cut_off_sidecar_is_no_whole_file(tmp_path):
 
 
 def test_the_index_lists_frames_that_have_picture_and_sidecar(shot, tmp_path):
-    made = shot(DRONE, Camera("sat", Satellite(swath=4000.0)))
+    film = shot(DRONE, Camera("sat", Satellite(swath=4000.0)))
     with Store(tmp_path, create=True) as store:
         for camera, frame, names in (
             ("drone", 1, "rgb pose masks"),
             ("drone", 2, "rgb"),
             ("sat", 1, "rgb pose"),
         ):
-            view = made.for_camera(camera).paths[0]
+            view = film.for_camera(camera).paths[0]
             for name in names.split():
                 for end in passes.known()[name].files:
                     path = tmp_path / passes.file_of(camera, name, frame, end)
                     path.parent.mkdir(parents=True, exist_ok=True)
                     text = (
-                        json.dumps(pose.describe(made.for_camera(camera), view, frame))
+                        json.dumps(pose.describe(film.for_camera(camera), view, frame))
                         if name == "pose"
                         else "x"
                     )
@@ -244,7 +244,7 @@ def test_the_index_lists_frames_that_have_picture_and_sidecar(shot, tmp_path):
     (frame,) = index["frames"]
     assert frame["file_path"] == "rgb/drone_rgb_000001.png"
     assert frame["fl_x"] == pytest.approx(320 * 28.0 / 36.0)
-    assert np.array(frame["transform_matrix"])[:3, 3] == pytest.approx(made.paths[0].position[0])
+    assert np.array(frame["transform_matrix"])[:3, 3] == pytest.approx(film.paths[0].position[0])
     assert set(frame["passes"]) == {"rgb", "pose", "masks"}
     assert (tmp_path / "drone" / frame["passes"]["masks"][0]).exists()
     (tmp_path / passes.file_of("drone", "pose", 1, "json")).unlink()
@@ -257,7 +257,7 @@ def fused(shot, tmp_path):
     """The fused picture of a red picture, 300 K with a hot half, and ground at 500 m under a sky."""
 
     def make(resolution):
-        made = shot(replace(DRONE, resolution=resolution))
+        film = shot(replace(DRONE, resolution=resolution))
         needed = {
             "rgb": {"png": tmp_path / "rgb.png"},
             "thermal": {"exr": tmp_path / "thermal.exr"},
@@ -268,7 +268,7 @@ def fused(shot, tmp_path):
         sensor.write_image(needed["rgb"]["png"], np.full((18, 32, 3), (1.0, 0.0, 0.0)))
         sensor.write_image(needed["thermal"]["exr"], kelvin)
         sensor.write_image(needed["depth"]["exr"], depth)
-        passes.finish("fused", {"png": tmp_path / "fused.png"}, needed, made, "drone", 3)
+        passes.finish("fused", {"png": tmp_path / "fused.png"}, needed, film, "drone", 3)
         return sensor.read_image(tmp_path / "fused.png")[..., :3]
 
     return make
@@ -312,8 +312,8 @@ MOUNT = (
 
 
 def test_a_place_is_at_the_same_point_of_every_panel_of_a_mount(shot, tmp_path):
-    made = shot(*MOUNT)
-    own, infrared, over = (made.for_camera(name).paths[0] for name in ("drone", "infrared", "map"))
+    film = shot(*MOUNT)
+    own, infrared, over = (film.for_camera(name).paths[0] for name in ("drone", "infrared", "map"))
     aim = own.position[2] + own.rotation[2] @ [0.2 * 800.0, 0.1 * 800.0, -800.0]
     pictures = {}
     for view, size in ((own, (640, 360)), (infrared, (160, 128)), (over, (200, 200))):
@@ -335,7 +335,7 @@ def test_a_place_is_at_the_same_point_of_every_panel_of_a_mount(shot, tmp_path):
     hot = np.where(pictures["infrared"], 1200.0, 300.0)
     sensor.write_image(needed["thermal"]["exr"], np.stack([hot, hot], axis=-1))
     sensor.write_image(needed["depth"]["exr"], np.full((360, 640, 2), 800.0))
-    passes.finish("fused", {"png": tmp_path / "f.png"}, needed, made.for_camera("drone"), "drone", 3)
+    passes.finish("fused", {"png": tmp_path / "f.png"}, needed, film.for_camera("drone"), "drone", 3)
     shown = sensor.read_image(tmp_path / "f.png")[..., :3]
     sheet = _sheet.Sheet(1280, 720)
     wide, high = sheet.wide * sheet.unit, sheet.high * sheet.unit
@@ -397,21 +397,21 @@ def test_the_map_shows_front_and_scar_whatever_its_ground(make_run, tmp_path, mi
 
 
 def test_a_fused_view_asks_its_mount_for_what_its_camera_does_not_record(shot):
-    made = shot(*MOUNT)
-    assert mount.taken(made.settings, made.cameras, "drone", passes.known()["fused"]) == {
+    film = shot(*MOUNT)
+    assert mount.taken(film.settings, film.cameras, "drone", passes.known()["fused"]) == {
         "rgb": ("drone", "rgb"),
         "thermal": ("infrared", "thermal"),
         "depth": ("drone", "depth"),
         "map": ("map", "rgb"),
     }
-    asked = plan.pictures(made, "2", "drone", "fused")
+    asked = plan.pictures(film, "2", "drone", "fused")
     assert asked == [
         Picture("infrared", 2, "thermal"),
         Picture("map", 2, "rgb"),
         Picture("drone", 2, "fused"),
     ]
-    assert plan.rounds(made, asked) == [asked[:2], asked[2:]]
-    assert plan.pictures(made, "2", "drone", "rgb") == [Picture("drone", 2, "rgb")]
+    assert plan.rounds(film, asked) == [asked[:2], asked[2:]]
+    assert plan.pictures(film, "2", "drone", "rgb") == [Picture("drone", 2, "rgb")]
 
 
 def test_a_fused_view_is_made_again_when_a_sensor_of_its_mount_changes():
@@ -437,23 +437,25 @@ def test_masks_in_eevee_are_refused_in_the_file_and_on_the_command_line(shot, tm
 
 
 def test_what_is_told_beside_the_panels_is_true(shot, monkeypatch):
-    made = shot(DRONE)
+    film_shot = shot(DRONE)
     square_metres = 4046.8564224
     burned = lambda _, moments: [square_metres * (1000.0 + time) for time in moments]  # noqa: E731
     monkeypatch.setattr(info, "burned", burned)
-    facts = dict(fused_pass.facts(made, "drone", 3))
-    assert facts["TIME"][1] == f"{made.utc(3):%Y-%m-%d %H:%M:%S} UTC"
+    facts = dict(fused_pass.facts(film_shot, "drone", 3))
+    assert facts["TIME"][1] == f"{film_shot.utc(3):%Y-%m-%d %H:%M:%S} UTC"
     assert facts["TIME"][0].endswith("PDT")
-    latitude, longitude, height = (float(v[0]) for v in made.local_frame.reverse(made.paths[0].position[2:3]))
+    latitude, longitude, height = (
+        float(v[0]) for v in film_shot.local_frame.reverse(film_shot.paths[0].position[2:3])
+    )
     assert facts["POSITION"] == [f"{latitude:.5f}° N", f"{-longitude:.5f}° W"]
     assert facts["HEIGHT"][1].startswith(f"{height:,.0f} m ")
     assert facts["VIEW"] == ["65° wide"]
-    assert facts["FILM"] == [f"{made.frames.step * made.settings.time.fps:,.3g}× as fast"]
-    assert facts["BURNED"] == [f"{1000.0 + made.frames.time(3):,.0f} acres"]
-    made.settings = replace(
-        made.settings, time=replace(made.settings.time, fps=round(11_160 / made.frames.step))
+    assert facts["FILM"] == [f"{film_shot.frames.step * film_shot.settings.time.fps:,.3g}× as fast"]
+    assert facts["BURNED"] == [f"{1000.0 + film_shot.frames.time(3):,.0f} acres"]
+    film_shot.settings = replace(
+        film_shot.settings, time=replace(film_shot.settings.time, fps=round(11_160 / film_shot.frames.step))
     )
-    (film,) = dict(fused_pass.facts(made, "drone", 3))["FILM"]
+    (film,) = dict(fused_pass.facts(film_shot, "drone", 3))["FILM"]
     assert float(film.split("×")[0].replace(",", "")) == pytest.approx(11_160, rel=0.01)
     assert film[2] == ","
 

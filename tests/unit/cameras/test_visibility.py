@@ -147,13 +147,15 @@ def test_ground_that_shades_what_is_seen_counts(bearing):
         seen[side // 2, side // 2] = True
         low = dilate(-centre[..., 2], 1) * -1.0
         rest = np.flatnonzero(~seen)
-        found = np.zeros((side, side), bool)
-        found.ravel()[rest] = shadow_casters._reaches(
+        shading = np.zeros((side, side), bool)
+        shading.ravel()[rest] = shadow_casters._reaches(
             centre, np.full((side, side), 1.0), low, dilate(seen, 1), rest, bearing, height
         )
-        assert found[row, column] == (away < 1.0), away
-        found[row, column] = False
-        assert found.sum() < 60  # a few blocks around visible ones, because all count as wider than they are
+        assert shading[row, column] == (away < 1.0), away
+        shading[row, column] = False
+        assert (
+            shading.sum() < 60
+        )  # a few blocks around visible ones, because all count as wider than they are
 
 
 def test_no_drawn_ground_is_under_its_floor(film):

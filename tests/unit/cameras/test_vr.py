@@ -182,16 +182,18 @@ def test_a_still_says_how_it_is_to_be_shown(tmp_path):
     name, rest = text.split(b"\0", 1)
     assert name == b"XML:com.adobe.xmp"  # XMP part 3, 1.1.5
     assert rest[:4] == b"\0\0\0\0"  # not compressed, no language, no other name
-    (found,) = ElementTree.fromstring(rest[4:].decode()).iter(
+    (description,) = ElementTree.fromstring(rest[4:].decode()).iter(
         "{http://www.w3.org/1999/02/22-rdf-syntax-ns#}Description"
     )
     pano = "{http://ns.google.com/photos/1.0/panorama/}"
-    says = {name.removeprefix(pano): value for name, value in found.attrib.items() if name.startswith(pano)}
+    says = {
+        name.removeprefix(pano): value for name, value in description.attrib.items() if name.startswith(pano)
+    }
     assert says["ProjectionType"] == "equirectangular"
     assert float(says["PoseHeadingDegrees"]) == 343.0
     for side, size in (("Width", "64"), ("Height", "64")):
         assert says[f"FullPano{side}Pixels"] == says[f"CroppedAreaImage{side}Pixels"] == size
-    assert found.attrib["{http://ns.google.com/videos/1.0/spherical/}StereoMode"] == "top-bottom"
+    assert description.attrib["{http://ns.google.com/videos/1.0/spherical/}StereoMode"] == "top-bottom"
 
 
 def box(kind, *inside):
@@ -244,16 +246,16 @@ def test_a_film_says_how_it_is_to_be_shown_and_keeps_its_chunks(tmp_path, order,
     for _ in range(2):  # once more changes nothing
         spherical.film(path)
         data = path.read_bytes()
-        found = list(walk(data, 0, len(data)))
-        entry = [where[-1] for where, *_ in found if where[-2:-1] == ("avc1",)]
+        boxes = list(walk(data, 0, len(data)))
+        entry = [where[-1] for where, *_ in boxes if where[-2:-1] == ("avc1",)]
         assert entry == ["avcC", "st3d", "sv3d", "pasp"]
-        body = {where[-1]: data[start:end] for where, start, end in found}
+        body = {where[-1]: data[start:end] for where, start, end in boxes}
         assert body["st3d"] == bytes([0, 0, 0, 0, 1])  # top-bottom
-        inside = [where[where.index("sv3d") + 1 :] for where, *_ in found if "sv3d" in where]
+        inside = [where[where.index("sv3d") + 1 :] for where, *_ in boxes if "sv3d" in where]
         assert inside == [(), ("svhd",), ("proj",), ("proj", "prhd"), ("proj", "equi")]
         assert body["svhd"] == bytes(4) + b"Firetwin\0"
         assert (body["prhd"], body["equi"]) == (bytes(16), bytes(20))
-        tables = [data[start:end] for where, start, end in found if where[-1] in ("stco", "co64")]
+        tables = [data[start:end] for where, start, end in boxes if where[-1] in ("stco", "co64")]
         for table, count in zip(tables, (3, 1), strict=True):
             places = struct.unpack(f">{count}{'Q' if wide else 'I'}", table[8:])
             for at, chunk in zip(places, CHUNKS, strict=False):

@@ -170,27 +170,27 @@ def test_greenness_in_the_scene_file_outweighs_the_fire(make_run):
 
 
 def test_planted_trees_stand_in_rows_and_are_of_one_height_in_a_compartment(shot):
-    made = shot({"canopy_fuel": filled(1.0)}, biome="plantation")
+    plantation = shot({"canopy_fuel": filled(1.0)}, biome="plantation")
     rng = np.random.default_rng(2)
     place = np.column_stack([rng.uniform(-300.0, 300.0, (4000, 2)), np.zeros(4000)])
-    there = planted_rows.planted(made, place)
+    there = planted_rows.planted(plantation, place)
     assert there.all()
-    moved = planted_rows.align(made, place, there)
+    moved = planted_rows.align(plantation, place, there)
     assert np.hypot(*(moved - place)[:, :2].T).max() <= 0.5 * planted_rows.ROW + 1e-9
     edge, row, number = field_lines.fields(field_lines.NUMPY, *place[:, :2].T, planted_rows._COMPARTMENT)
     place, moved, row, number = (each[edge > planted_rows.ROW] for each in (place, moved, row, number))
     for one in np.unique(row + 1j * number)[:4]:
         inside = row + 1j * number == one
         x, y = place[inside, :2].T
-        turn = np.pi * planted_rows._lot(made, x, y, 0)[0]
+        turn = np.pi * planted_rows._lot(plantation, x, y, 0)[0]
         across = moved[inside, 1] * np.cos(turn) - moved[inside, 0] * np.sin(turn)
         off = across / planted_rows.ROW
         assert np.abs(off - np.round(off)).max() < 1e-9
-        felled = planted_rows.stocked(made, moved[inside]) == 0.0
+        felled = planted_rows.stocked(plantation, moved[inside]) == 0.0
         assert felled[np.round(off) % 6 == 0].all()
         assert felled.mean() < 0.4
         key = np.stack([np.arange(inside.sum()), np.zeros(inside.sum(), int)], axis=-1)
-        tall = planted_rows.heights(made, place[inside], key)
+        tall = planted_rows.heights(plantation, place[inside], key)
         assert tall.std() < 0.12 * tall.mean()
         assert 5.0 < tall.mean() < 30.0
 
@@ -255,13 +255,13 @@ def test_fields_are_between_their_edges():
 
 def test_trees_of_open_land_stand_in_groups_and_about_as_many_as_the_cover_says(shot):
     rng = np.random.default_rng(5)
-    made = shot(
+    open_land = shot(
         {"canopy_fuel": filled(0.0), "surface_fuel": filled(0.5)}, biome="grassland", tree_cover=0.004
     )
     place = np.column_stack([rng.uniform(-4e5, 4e5, (20_000, 2)), np.zeros(20_000)])
     # Only noise counts here: places beyond the run have the hollow of its edge.
-    part = stand_structure._scattered(made, 0.004, place)
-    hollow = cover.hollows(made.ground)
+    part = stand_structure._scattered(open_land, 0.004, place)
+    hollow = cover.hollows(open_land.ground)
     level = float(np.exp(stand_structure._HOLLOW * np.median(hollow)))
     assert 0.25 < part.mean() / (0.004 / stand_structure._FULL) / level < 4.0
     assert np.quantile(part, 0.99) > 8.0 * np.median(part)

@@ -107,12 +107,12 @@ def test_lone_trees_are_known_where_they_are_asked_for_and_beside(shot):
 def test_trees_are_alike_in_patches_and_evenly_spread():
     random = np.random.default_rng(1)
     place, chance = random.uniform(0.0, 4000.0, (40_000, 3)), random.uniform(0.0, 1.0, 40_000)
-    found = stand_structure.clustered_uniform(place, 110.0, chance, 5)
-    assert np.histogram(found, 10, (0.0, 1.0))[0] / 4000.0 == pytest.approx(1.0, abs=0.25)
+    uniform = stand_structure.clustered_uniform(place, 110.0, chance, 5)
+    assert np.histogram(uniform, 10, (0.0, 1.0))[0] / 4000.0 == pytest.approx(1.0, abs=0.25)
     other = noise.uniform(np.arange(40_000), 0, 7)
     beside, apart = (
         stand_structure.clustered_uniform(place + np.array([m, 0.0, 0.0]), 110.0, other, 5)
         for m in (5.0, 900.0)
     )
-    assert np.corrcoef(found, beside)[0, 1] > 0.4
-    assert abs(np.corrcoef(found, apart)[0, 1]) < 0.1
+    assert np.corrcoef(uniform, beside)[0, 1] > 0.4
+    assert abs(np.corrcoef(uniform, apart)[0, 1]) < 0.1

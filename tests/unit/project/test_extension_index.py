@@ -86,16 +86,16 @@ def test_listing_describes_each_zip(tmp_path, write_zip, present):
 
 def test_missing_platform_and_bad_zip_are_refused(tmp_path, write_zip, present):
     zips = [write_zip(present, platform) for platform in PLATFORMS]
-    made = make(tmp_path / "out", zips[1:])
-    assert made.returncode == 1
-    assert "missing: ['linux-x64']" in made.stderr
+    result = make(tmp_path / "out", zips[1:])
+    assert result.returncode == 1
+    assert "missing: ['linux-x64']" in result.stderr
     assert make(tmp_path / "some", zips[:1]).returncode == 1
     assert make(tmp_path / "some", ["--incomplete", *zips[:1]]).returncode == 0
     assert len(json.loads((tmp_path / "some/index.json").read_text())["data"]) == 1
     zips[0].write_bytes(b"not a zip")
-    made = make(tmp_path / "out", zips)
-    assert made.returncode == 1
-    assert "Blender accepted 2 of 3 zips" in made.stderr
+    result = make(tmp_path / "out", zips)
+    assert result.returncode == 1
+    assert "Blender accepted 2 of 3 zips" in result.stderr
     assert not (tmp_path / "out").exists()
 
 

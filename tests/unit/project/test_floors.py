@@ -64,13 +64,13 @@ WITH_BPY = {
 
 def modules() -> dict[str, Path]:
     """Every module of the package by its full name."""
-    found = {}
+    paths = {}
     for package, folder in PLACES.items():
         for path in sorted(folder.rglob("*.py")):
             parts = path.relative_to(folder).with_suffix("").parts
             if "__pycache__" not in parts:
-                found[".".join((package, *parts)).removesuffix(".__init__")] = path
-    return found
+                paths[".".join((package, *parts)).removesuffix(".__init__")] = path
+    return paths
 
 
 MODULES = modules()
@@ -80,7 +80,7 @@ def imports(name: str) -> set[str]:
     """Modules of the package that a module imports as it loads: not within functions, not for types alone."""
     path = MODULES[name]
     package = name if path.stem == "__init__" else name.rpartition(".")[0]
-    found: set[str] = set()
+    names: set[str] = set()
     pending: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"))]
     while pending:
         node = pending.pop()
@@ -92,9 +92,9 @@ def imports(name: str) -> set[str]:
             above = package.split(".")[: len(package.split(".")) + 1 - node.level]
             origin = ".".join(filter(None, (*above, node.module)))
             inner = {f"{origin}.{alias.name}" for alias in node.names}
-            found |= {each if each in MODULES else origin for each in inner}
+            names |= {each if each in MODULES else origin for each in inner}
         pending += ast.iter_child_nodes(node)
-    return found
+    return names
 
 
 def test_no_import_goes_in_a_circle():

@@ -137,7 +137,10 @@ def test_names_that_live_long_and_definitions_count_up_to_the_ceiling(
     monkeypatch.setattr(report, "ROOT", tmp_path)
     monkeypatch.setattr(names, "CEILINGS", {"addon": ceiling})
     monkeypatch.setattr(sys, "argv", ["prose", "addon"])
-    assert [(name.line, name.name) for name in names.count(tmp_path)["addon"]] == [(1, "ShotBiome"), (5, "found")]
+    assert [(name.line, name.name) for name in names.count(tmp_path)["addon"]] == [
+        (1, "ShotBiome"),
+        (5, "found"),
+    ]
     assert report.main() == status
     assert ("2 names" in capsys.readouterr().err) == bool(status)
 

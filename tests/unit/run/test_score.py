@@ -48,7 +48,7 @@ def round_run(make_run):
     time[time > 3600.0] = np.nan
 
     def make(**fields):
-        made = {
+        defaults = {
             "latitude": coarse_latitude,
             "longitude": coarse_longitude,
             "fuel_latitude": latitude,
@@ -63,7 +63,7 @@ def round_run(make_run):
             "fuel_arrival_time": time.astype(np.float32),
         }
         toml = 'name = "Round"\nstart = 2014-09-17T04:45:00Z\ninterval_s = 600.0\nvertical = "orthometric"\n'
-        return readers.open(make_run(toml=toml, **(made | fields)))
+        return readers.open(make_run(toml=toml, **(defaults | fields)))
 
     return make
 
@@ -147,7 +147,7 @@ def test_cells_by_scikit_learn(seed, side):
     rng = np.random.default_rng(seed)
     run, there = rng.random((2, side, side)) < rng.uniform(0.05, 0.95, (2, 1, 1))
     weight = rng.uniform(1, 2, (side, side))
-    found = Overlap.of_cells(run, there, weight).scores()
+    scores_ = Overlap.of_cells(run, there, weight).scores()
     options = {"sample_weight": weight.ravel(), "zero_division": 0.0}
     oracle = {
         "sorensen": metrics.f1_score,
@@ -156,10 +156,10 @@ def test_cells_by_scikit_learn(seed, side):
         "recall": metrics.recall_score,
     }
     for name, function in oracle.items():
-        assert (found[name] or 0.0) == pytest.approx(function(there.ravel(), run.ravel(), **options))
+        assert (scores_[name] or 0.0) == pytest.approx(function(there.ravel(), run.ravel(), **options))
     if 0 < there.sum() < there.size or 0 < run.sum() < run.size:
         kappa = metrics.cohen_kappa_score(there.ravel(), run.ravel(), sample_weight=weight.ravel())
-        assert found["kappa"] == pytest.approx(kappa, abs=1e-12)
+        assert scores_["kappa"] == pytest.approx(kappa, abs=1e-12)
 
 
 areas_of = st.floats(0.0, 1e9, allow_subnormal=False)
@@ -167,27 +167,33 @@ areas_of = st.floats(0.0, 1e9, allow_subnormal=False)
 
 @given(areas_of, areas_of, areas_of, areas_of)
 def test_scores_are_bounded_and_symmetric(both, here, there, neither):
-    found = Overlap(both, here, there, neither).scores()
+    own_scores = Overlap(both, here, there, neither).scores()
     other = Overlap(both, there, here, neither).scores()
     for name in ("sorensen", "jaccard", "precision", "recall"):
-        assert found[name] is None or 0.0 <= found[name] <= 1.0
+        assert own_scores[name] is None or 0.0 <= own_scores[name] <= 1.0
     for name in ("sorensen", "jaccard", "kappa", "adi"):
-        assert found[name] == pytest.approx(other[name]) if found[name] is not None else other[name] is None
-    assert found["precision"] == other["recall"]
+        assert (
+            own_scores[name] == pytest.approx(other[name])
+            if own_scores[name] is not None
+            else other[name] is None
+        )
+    assert own_scores["precision"] == other["recall"]
     if both > 0.0:
-        assert found["sorensen"] == pytest.approx(2 * found["jaccard"] / (1 + found["jaccard"]))
+        assert own_scores["sorensen"] == pytest.approx(
+            2 * own_scores["jaccard"] / (1 + own_scores["jaccard"])
+        )
 
 
 def test_a_run_against_itself_is_perfect(round_run):
     run = round_run()
-    found = scores.score(run, observations.Observations(), run)
-    assert len(found["dates"]) == scores.SAMPLES
-    for row in found["dates"]:
+    report = scores.score(run, observations.Observations(), run)
+    assert len(report["dates"]) == scores.SAMPLES
+    for row in report["dates"]:
         assert row["all"]["polygons"]["sorensen"] == pytest.approx(1.0, abs=1e-4)
         assert row["all"]["cells"]["jaccard"] > 0.97  # the polygon of the other, on cells again
         assert row["distance"]["hausdorff"] < 1.0
-    assert found["arrival"]["bias"] == found["arrival"]["rmse"] == 0.0
-    assert found["arrival"]["run_only"] == found["arrival"]["seen_only"] == 0
+    assert report["arrival"]["bias"] == report["arrival"]["rmse"] == 0.0
+    assert report["arrival"]["run_only"] == report["arrival"]["seen_only"] == 0
 
 
 @pytest.mark.parametrize("cell", [30.0, 77.0])
@@ -367,16 +373,16 @@ def test_the_report_is_one_page_with_its_pictures_inside(round_run, against):
     seen_too = observations.Observations(circles if against == "perimeters" else ())
     others = [] if against == "perimeters" else [run]
     text = report.html(run, scores.score(run, seen_too, *others), seen_too, *others)
-    made = _Page(text)
-    assert made.elsewhere == []
+    page = _Page(text)
+    assert page.elsewhere == []
     assert f'<meta http-equiv="Content-Security-Policy" content="{report.POLICY}">' in text
-    assert made.drawn == 1
-    assert len(made.pictures) == (2 if against == "perimeters" else scores.SAMPLES)
-    for picture in made.pictures:
+    assert page.drawn == 1
+    assert len(page.pictures) == (2 if against == "perimeters" else scores.SAMPLES)
+    for picture in page.pictures:
         head, data = picture.split(",")
         assert head == "data:image/png;base64"
         assert base64.b64decode(data).startswith(b"\x89PNG")
-    assert "main" not in made.open
+    assert "main" not in page.open
     assert "synthetic" not in text
 
 

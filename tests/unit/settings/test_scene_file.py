@@ -368,7 +368,7 @@ def test_places_of_keys_in_every_kind_of_toml():
         "[[l]]\nx = 1979-05-27 07:32:00Z\n[[l.m]]\ny=1\n[[l]]\n[l.n]\nz=0\n"
     )
     tomllib.loads(text)
-    found = places.places(text.replace("\r\n", "\n"))
+    positions = places.places(text.replace("\r\n", "\n"))
     expected = {
         ("a", "b"): (1, 3),
         ("q k",): (2, 1),
@@ -379,7 +379,7 @@ def test_places_of_keys_in_every_kind_of_toml():
         ("l", 0, "m", 0, "y"): (10, 1),
         ("l", 1, "n", "z"): (13, 1),
     }
-    assert {path: found[path] for path in expected} == expected
+    assert {path: positions[path] for path in expected} == expected
 
 
 def test_lists_of_frames():
@@ -414,16 +414,16 @@ def test_lists_of_frames_come_back(frames):
 def test_former_names_of_sections_are_read_and_noted(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text("seed = 3\n[ground]\napron = 7.0\n\n[places]\nenabled = true\n")
-    found = scene_file.read(path)
-    assert (found.terrain.apron, found.labels.enabled) == (7.0, True)
-    assert [note.removeprefix(f"{path}:") for note in found.notes] == [
+    settings = scene_file.read(path)
+    assert (settings.terrain.apron, settings.labels.enabled) == (7.0, True)
+    assert [note.removeprefix(f"{path}:") for note in settings.notes] == [
         "2:2: [ground] is called [terrain] now; the old name is read in this version only",
         "5:2: [places] is called [labels] now; the old name is read in this version only",
     ]
     path.write_text("[render]\nskip = false\n")
-    found = scene_file.read(path)
-    assert not found.render.cull
-    assert found.notes == (
+    settings = scene_file.read(path)
+    assert not settings.render.cull
+    assert settings.notes == (
         f"{path}:2:1: render.skip is called render.cull now; the old name is read in this version only",
     )
     path.write_text("[render]\nskip = false\ncull = true\n")

@@ -97,16 +97,16 @@ def test_what_a_product_depends_on_is_chosen_by_aspect():
     assert schema.select(SETTINGS, {"picture"}) == {"render": {"engine": "cycles", "resolution": [640, 360]}}
     grain = {"samples": 6, "denoise": True, "motion_blur": 0.0, "seed": 0}
     assert schema.select(SETTINGS, {"grain"}) == {"time": {"shutter": None}, "render": grain}
-    found = schema.select(SETTINGS, {"thermal"})
-    assert found["render"] == {"thermal_low": None, "thermal_high": 800.0}
-    assert found["thermal"]["band"] == "lwir"
-    found = schema.select(SETTINGS, {"terrain"})["forest"]  # the colours of what grows on it
-    assert set(found) == {"biome", "greenness", "shrub_cover", "tree_cover"}
+    chosen = schema.select(SETTINGS, {"thermal"})
+    assert chosen["render"] == {"thermal_low": None, "thermal_high": 800.0}
+    assert chosen["thermal"]["band"] == "lwir"
+    chosen = schema.select(SETTINGS, {"terrain"})["forest"]  # the colours of what grows on it
+    assert set(chosen) == {"biome", "greenness", "shrub_cover", "tree_cover"}
     for aspect in ("terrain", "forest", "fire", "smoke"):
-        found = schema.select(SETTINGS, {aspect})
+        chosen = schema.select(SETTINGS, {aspect})
         more = {"terrain": {"forest", "tiles"}, "forest": {"tiles"}}.get(aspect, set())
-        assert set(found) == {"seed", aspect, "render"} | more
-        assert found["render"] == {"cull": True} | ({} if aspect == "smoke" else {"chunk": 480})
+        assert set(chosen) == {"seed", aspect, "render"} | more
+        assert chosen["render"] == {"cull": True} | ({} if aspect == "smoke" else {"chunk": 480})
     assert set(schema.select(SETTINGS, {"light"})) == {"light"}
     assert schema.select(SETTINGS, set()) == {}
 
@@ -177,10 +177,10 @@ def as_json(value):
 
 
 def test_the_json_schema_is_one():
-    found = json_schema(Settings)
-    jsonschema.Draft202012Validator.check_schema(found)
-    assert found["properties"]["time"]["properties"]["start"]["format"] == "date-time"
-    error = found["properties"]["terrain"]["properties"]["error"]
+    json_schema_ = json_schema(Settings)
+    jsonschema.Draft202012Validator.check_schema(json_schema_)
+    assert json_schema_["properties"]["time"]["properties"]["start"]["format"] == "date-time"
+    error = json_schema_["properties"]["terrain"]["properties"]["error"]
     assert error == {
         "description": "mesh tolerance: largest vertical error seen by a camera, pixels; larger is coarser",
         "type": "number",
@@ -188,9 +188,9 @@ def test_the_json_schema_is_one():
         "maximum": 1000,
         "default": 0.05,
     }
-    high = found["properties"]["render"]["properties"]["thermal_high"]
+    high = json_schema_["properties"]["render"]["properties"]["thermal_high"]
     assert (high["exclusiveMinimum"], high["maximum"]) == (0, 10_000)
-    assert found["properties"]["render"]["properties"]["engine"]["enum"] == ["cycles", "eevee"]
+    assert json_schema_["properties"]["render"]["properties"]["engine"]["enum"] == ["cycles", "eevee"]
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)

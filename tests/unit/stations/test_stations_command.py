@@ -180,14 +180,16 @@ def members(tmp_path):
 def test_members_of_a_forecast_at_stations(exercise, run, members, tmp_path, capsys):
     fields = small_fields()
     place = float(fields["fuel_latitude"][3]), float(fields["fuel_longitude"][3])
-    made = small_stations.briefed(tmp_path / "there.gpkg", [("Inside", *place), ("Outside", 40.0, -120.0)])
-    _, text, _ = firetwin(capsys, "resources", made, "--stations", "--ensemble", members)
+    station_file = small_stations.briefed(
+        tmp_path / "there.gpkg", [("Inside", *place), ("Outside", 40.0, -120.0)]
+    )
+    _, text, _ = firetwin(capsys, "resources", station_file, "--stations", "--ensemble", members)
     assert "2 of 20 burn it by  10 of 20 burn it by  do not reach it by 17 Sep 02:45" in text
     rows = {name: line for line in text.splitlines() for name in ("Inside", "Outside") if name in line}
     assert re.search(r"16 Sep 21:45 +17 Sep 01:45 +10 of 20", rows["Inside"])
     assert rows["Outside"].count("not simulated") == 3
     assert "forecast: Many, 20 of 20 members, issued 16 Sep 2014 20:45 -08" in text
-    _, text, _ = firetwin(capsys, "resources", made, "--stations", "--ensemble", members, "--json")
+    _, text, _ = firetwin(capsys, "resources", station_file, "--stations", "--ensemble", members, "--json")
     inside, outside = (each["forecast"] for each in json.loads(text)["matches"])
     assert [each["time"] for each in inside["burned_by"]] == [
         "2014-09-17T05:45:00Z",
@@ -197,9 +199,13 @@ def test_members_of_a_forecast_at_stations(exercise, run, members, tmp_path, cap
     assert (inside["members"], inside["not_reached"], outside["members"]) == (20, 10, 0)
     for late, listed in (("2014-09-17T05:00Z", ["Inside"]), ("2014-09-17T06:00Z", [])):
         options = "--ahead", "--available-at", late, "--json"
-        _, text, _ = firetwin(capsys, "resources", made, "--stations", "--ensemble", members, *options)
+        _, text, _ = firetwin(
+            capsys, "resources", station_file, "--stations", "--ensemble", members, *options
+        )
         assert [each["station"]["name"] for each in json.loads(text)["matches"]] == listed
-    _, text, _ = firetwin(capsys, "resources", made, "--stations", "--run", run, "--ensemble", members)
+    _, text, _ = firetwin(
+        capsys, "resources", station_file, "--stations", "--run", run, "--ensemble", members
+    )
     assert "fire  " in text
     assert "16 Sep 22:45  " in text, "the zone of the run"
 

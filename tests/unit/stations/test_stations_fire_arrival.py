@@ -22,13 +22,13 @@ def burning(make_run):
 
 def test_at_the_centres_of_cells_the_times_are_the_runs_own(burning):
     run, y, x, _ = burning
-    found = fire_arrival.sample(run, y.ravel(), x.ravel())
+    arrivals = fire_arrival.sample(run, y.ravel(), x.ravel())
     own = run.fuel_arrival_time().ravel()
-    np.testing.assert_allclose(found.time, own, rtol=1e-6)
-    for bound in (found.earliest, found.latest):
+    np.testing.assert_allclose(arrivals.time, own, rtol=1e-6)
+    for bound in (arrivals.earliest, arrivals.latest):
         np.testing.assert_allclose(bound[np.isfinite(own)], own[np.isfinite(own)], atol=0.01)
     assert (
-        found.state
+        arrivals.state
         == np.where(
             np.isnan(own),
             fire_arrival.NOT_REACHED,
@@ -53,13 +53,13 @@ def test_the_front_passes_a_place_at_its_time(burning):
     run, y, x, _ = burning
     rng = np.random.default_rng(2)
     latitude, longitude = rng.uniform(y.min(), y.max(), 500), rng.uniform(x.min(), x.max(), 500)
-    found, reach = fire_arrival.sample(run, latitude, longitude), front.reach(run)
+    arrivals, reach = fire_arrival.sample(run, latitude, longitude), front.reach(run)
     burned = reach.burned(latitude, longitude, float(run.times[-1])) == 1.0
-    assert (np.isfinite(found.time) == burned).all()
-    whole = np.isfinite(found.time) & (found.latest < float(run.times[-1]))  # no cell that stays around
-    for k in np.flatnonzero(whole & (found.time > 6.0)):
+    assert (np.isfinite(arrivals.time) == burned).all()
+    whole = np.isfinite(arrivals.time) & (arrivals.latest < float(run.times[-1]))  # no cell that stays around
+    for k in np.flatnonzero(whole & (arrivals.time > 6.0)):
         before, after = (
-            reach.burned(latitude[k : k + 1], longitude[k : k + 1], float(found.time[k]) + step)[0]
+            reach.burned(latitude[k : k + 1], longitude[k : k + 1], float(arrivals.time[k]) + step)[0]
             for step in (-0.01, 0.01)
         )
         assert (before, after) == (0.0, 1.0)
@@ -75,14 +75,14 @@ def test_where_the_front_stops_the_latest_is_the_end_of_the_run(burning):
 
 def test_outside_of_the_grid_nothing_is_said(burning):
     run, *_ = burning
-    found = fire_arrival.sample(run, [38.0, 38.9005, 38.9005], [-120.59, -121.0, 239.41])
-    assert found.state.tolist() == [
+    arrivals = fire_arrival.sample(run, [38.0, 38.9005, 38.9005], [-120.59, -121.0, 239.41])
+    assert arrivals.state.tolist() == [
         fire_arrival.OUTSIDE,
         fire_arrival.OUTSIDE,
         fire_arrival.REACHED,
     ]  # 239.41 east is -120.59
-    assert found.utc(run, 0) is None
-    assert found.utc(run, 2)[0] == times.utc(run, float(found.time[2]))
+    assert arrivals.utc(run, 0) is None
+    assert arrivals.utc(run, 2)[0] == times.utc(run, float(arrivals.time[2]))
 
 
 def test_times_from_fluxes_are_an_interval_less_certain(make_run):
@@ -111,11 +111,11 @@ def test_a_run_without_fire_reaches_nothing(make_run):
 def test_how_close_the_fire_comes_to_what_does_not_burn(burning):
     run, y, x, arrival = burning
     latitude, longitude = np.array([38.0, y[7, 9], y[2, 2]]), np.array([-120.59, x[7, 9], x[2, 2]])
-    found = fire_arrival.sample(run, latitude, longitude)
+    arrivals = fire_arrival.sample(run, latitude, longitude)
     row, column = np.nonzero(np.isfinite(arrival))
     for k in range(2):  # against all cells that burn
         far = distance_km(y[row, column], x[row, column], (latitude[k], longitude[k]))
-        assert found.nearest_km[k] == pytest.approx(far.min())
+        assert arrivals.nearest_km[k] == pytest.approx(far.min())
         at = np.flatnonzero(far <= far.min() + 1e-9)
-        assert found.nearest_time[k] in arrival[row[at], column[at]].astype(np.float32)
-    assert (found.nearest_km[2], found.nearest_time[2]) == (0.0, found.time[2])
+        assert arrivals.nearest_time[k] in arrival[row[at], column[at]].astype(np.float32)
+    assert (arrivals.nearest_km[2], arrivals.nearest_time[2]) == (0.0, arrivals.time[2])

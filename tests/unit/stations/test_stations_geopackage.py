@@ -32,16 +32,16 @@ def file(tmp_path):
 
 def test_what_is_written_is_read(file):
     path, station_file = file
-    found = reading.read(path)
-    assert found.stations == station_file.stations
-    assert found.resources == tuple(sorted(station_file.resources, key=lambda each: each.id))
-    assert all(type(each.night) is bool for each in found.resources)
-    assert (found.availability, found.sources, found.types) == (
+    result = reading.read(path)
+    assert result.stations == station_file.stations
+    assert result.resources == tuple(sorted(station_file.resources, key=lambda each: each.id))
+    assert all(type(each.night) is bool for each in result.resources)
+    assert (result.availability, result.sources, result.types) == (
         station_file.availability,
         station_file.sources,
         station_file.types,
     )
-    (area,), (own,) = found.areas, station_file.areas
+    (area,), (own,) = result.areas, station_file.areas
     assert (area.name, area.kind, area.station) == (own.name, own.kind, own.station)
     for rings, wanted in zip(area.polygons, own.polygons, strict=True):
         for ring, corners in zip(rings, wanted, strict=True):

@@ -211,19 +211,19 @@ def test_a_wrong_value_is_named_with_its_line(tmp_path, row, reason):
 
 
 def test_a_file_of_places_is_taken_over_beside_others(tmp_path):
-    known = random_stations(2)
-    writing.write(known, tmp_path / "known.gpkg")
+    imported = random_stations(2)
+    writing.write(imported, tmp_path / "known.gpkg")
     stations = tmp_path / "stations.csv"
     stations.write_text("name,lat,lon\nCamp,10,20\n")
     assert importers.find_importer(tmp_path / "known.gpkg") is firetwin
     station_file, _ = merged(stations, tmp_path / "known.gpkg", tmp_path / "known.gpkg")
-    assert len(station_file.stations) == 1 + 2 * len(known.stations)
-    assert len(station_file.resources) == 2 * len(known.resources)
-    assert len(station_file.availability) == 2 * len(known.availability)
+    assert len(station_file.stations) == 1 + 2 * len(imported.stations)
+    assert len(station_file.resources) == 2 * len(imported.resources)
+    assert len(station_file.availability) == 2 * len(imported.availability)
     at = {each.id: each for each in station_file.stations}
     names_of = [(each.name, at[each.station].name) for each in station_file.resources]
-    own = {each.id: each.name for each in known.stations}
-    assert sorted(names_of) == sorted(2 * [(each.name, own[each.station]) for each in known.resources])
+    own = {each.id: each.name for each in imported.stations}
+    assert sorted(names_of) == sorted(2 * [(each.name, own[each.station]) for each in imported.resources])
     writing.write(station_file, tmp_path / "both.gpkg")
     assert len(reading.read(tmp_path / "both.gpkg").stations) == len(station_file.stations)
 

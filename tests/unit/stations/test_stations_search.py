@@ -18,7 +18,7 @@ from random_stations import CENTRE, NOON, random_stations
 
 def one_by_one(station_file, query):
     """Check each resource in plain Python: results with minutes, cost and tonnes."""
-    found = []
+    rows = []
     for each in station_file.resources:
         kind, number = each.type.split("/")
         station = next(s for s in station_file.stations if s.id == each.station)
@@ -57,8 +57,8 @@ def one_by_one(station_file, query):
         if query.tonnes_per_hour is not None and not tonnes:
             passes = False
         if passes:
-            found.append((each.id, minutes, cost, tonnes))
-    return sorted(found, key=lambda row: (math.inf if row[1] is None else row[1], row[0]))
+            rows.append((each.id, minutes, cost, tonnes))
+    return sorted(rows, key=lambda row: (math.inf if row[1] is None else row[1], row[0]))
 
 
 def random_query(rng):
@@ -83,13 +83,13 @@ def test_a_thousand_searches_find_what_each_condition_finds_one_by_one():
     for seed in range(1000):
         station_file, query = random_stations(seed), random_query(rng)
         wanted = one_by_one(station_file, query)
-        found = search.survey(station_file, query)
-        assert [each.resource.id for each in found.matches] == [row[0] for row in wanted]
-        for match, (_, *values) in zip(found.matches, wanted, strict=True):
+        result = search.survey(station_file, query)
+        assert [each.resource.id for each in result.matches] == [row[0] for row in wanted]
+        for match, (_, *values) in zip(result.matches, wanted, strict=True):
             got = (match.minutes, match.cost, match.tonnes_per_hour)
             for have, want in zip(got, values, strict=True):
                 assert have == want if want is None else have == pytest.approx(want)
-        assert len(wanted) + sum(found.left_out.values()) == len(station_file.resources)
+        assert len(wanted) + sum(result.left_out.values()) == len(station_file.resources)
         number += len(wanted)
     assert number > 800
 
@@ -112,13 +112,13 @@ def test_a_thousand_cheapest_sets_are_those_of_all_subsets():
         high = int(rng.choice([3, 50, 10_000]))
         cost, gain = (rng.integers(0, high, size) for _ in range(2))
         need = int(rng.integers(1, max(int(gain.sum() * 1.2), 2)))
-        best, found = cheapest_of_all(cost.tolist(), gain.tolist(), need), cover.cheapest(cost, gain, need)
+        best, cheapest = cheapest_of_all(cost.tolist(), gain.tolist(), need), cover.cheapest(cost, gain, need)
         if best is None:
-            assert found is None
+            assert cheapest is None
             continue
-        assert gain[found].sum() >= need
-        assert (cost[found].sum(), len(found)) == best
-        assert (np.diff(found) > 0).all()
+        assert gain[cheapest].sum() >= need
+        assert (cost[cheapest].sum(), len(cheapest)) == best
+        assert (np.diff(cheapest) > 0).all()
 
 
 def test_of_alike_resources_the_first_are_taken():
@@ -142,18 +142,18 @@ def test_a_set_is_the_cheapest_of_all_subsets_of_what_passes():
         station_file = random_stations(seed, resources=14, gaps=0.0)
         query = set_query(tonnes_per_hour=12.0)
         every = one_by_one(station_file, query)
-        found = search.survey(station_file, query)
+        result = search.survey(station_file, query)
         gain = [math.floor(row[3] * 1000 + 1e-6) for row in every]
         best = cheapest_of_all([round(row[2] * 100) for row in every], gain, 12_000)
-        assert bool(found.shortfall) == (best is None)
+        assert bool(result.shortfall) == (best is None)
         if best is not None:
-            assert (round(found.cost * 100), len(found.matches)) == best
-            assert found.tonnes_per_hour >= 12.0 - 1e-6
-            tried += len(found.matches) > 1
-            low = search.survey(station_file, replace(query, budget=found.cost - 1.0))
+            assert (round(result.cost * 100), len(result.matches)) == best
+            assert result.tonnes_per_hour >= 12.0 - 1e-6
+            tried += len(result.matches) > 1
+            low = search.survey(station_file, replace(query, budget=result.cost - 1.0))
             assert not low.matches
             assert "more than" in low.shortfall
-            assert search.survey(station_file, replace(query, budget=found.cost)).matches == found.matches
+            assert search.survey(station_file, replace(query, budget=result.cost)).matches == result.matches
     assert tried > 20
 
 

@@ -19,36 +19,38 @@ def fields():
 
 
 def test_as_much_of_the_apron_is_bare_as_of_the_grid_at_that_height(fields):
-    made = apron.extend(fields, CELL, 60_000.0, 1)
-    out = np.ones(made.elevation.shape, bool)
-    out[made.margin : -made.margin, made.margin : -made.margin] = False
+    extended = apron.extend(fields, CELL, 60_000.0, 1)
+    out = np.ones(extended.elevation.shape, bool)
+    out[extended.margin : -extended.margin, extended.margin : -extended.margin] = False
     shares = []
     for low, high in np.lib.stride_tricks.sliding_window_view(
         np.quantile(fields.elevation, [0.1, 0.5, 0.9]), 2
     ):
-        known = (fields.elevation > low) & (fields.elevation < high)
-        there = out & (made.elevation > low) & (made.elevation < high)
+        in_grid = (fields.elevation > low) & (fields.elevation < high)
+        there = out & (extended.elevation > low) & (extended.elevation < high)
         assert there.sum() > 1000
         for field, other in (
-            (fields.canopy_fuel, made.canopy_fuel),
-            (fields.surface_fuel, made.surface_fuel),
+            (fields.canopy_fuel, extended.canopy_fuel),
+            (fields.surface_fuel, extended.surface_fuel),
         ):
-            assert other[there].mean() == pytest.approx(field[known].mean(), rel=0.25)
-        shares.append((np.mean(made.canopy_fuel[there] < 0.01), np.mean(fields.canopy_fuel[known] < 0.01)))
+            assert other[there].mean() == pytest.approx(field[in_grid].mean(), rel=0.25)
+        shares.append(
+            (np.mean(extended.canopy_fuel[there] < 0.01), np.mean(fields.canopy_fuel[in_grid] < 0.01))
+        )
     for found, wanted in shares:
         assert found == pytest.approx(wanted, abs=0.08)
     assert shares[0][1] > 0.1
 
 
 def test_nothing_of_the_grid_is_changed_and_the_apron_has_the_grids_fuels(fields):
-    made = apron.extend(fields, CELL, 60_000.0, 1)
-    inner = slice(made.margin, -made.margin)
+    extended = apron.extend(fields, CELL, 60_000.0, 1)
+    inner = slice(extended.margin, -extended.margin)
     for name in ("elevation", "canopy_fuel", "surface_fuel"):
-        np.testing.assert_array_equal(getattr(made, name)[inner, inner], getattr(fields, name))
-        values = getattr(made, name)
+        np.testing.assert_array_equal(getattr(extended, name)[inner, inner], getattr(fields, name))
+        values = getattr(extended, name)
         assert np.isfinite(values).all()
-    assert made.canopy_fuel.min() >= 0.0
-    assert made.canopy_fuel.max() <= fields.canopy_fuel.max()
+    assert extended.canopy_fuel.min() >= 0.0
+    assert extended.canopy_fuel.max() <= fields.canopy_fuel.max()
 
 
 def test_land_goes_on_across_the_edge_as_it_is_within(fields):

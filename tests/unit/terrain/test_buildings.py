@@ -162,7 +162,7 @@ def test_a_block_is_closed_but_for_its_base(holes):
 
 
 def write(path, *polygons):
-    found = [
+    features = [
         {
             "type": "Feature",
             "properties": properties,
@@ -170,7 +170,7 @@ def write(path, *polygons):
         }
         for ring, properties in polygons
     ]
-    path.write_text(json.dumps({"type": "FeatureCollection", "features": found}))
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
 
 
 def test_a_file_of_footprints_is_read(tmp_path):

@@ -88,15 +88,15 @@ def test_beside_it_and_in_its_gaps_the_runs_relief_goes_on(make, tiff, axes):
 
     tiff(holed, nodata=-9999.0, box=(-120.62, 38.88, -120.5905, 38.93))
     shot = make().shot()
-    found, share = shot.relief.fuel, shot.relief.share
+    heights, share = shot.relief.fuel, shot.relief.share
     wanted = plane(axes[0][:, None], axes[1][None, :])
     east = axes[1] > -120.590
-    assert np.all(found[:, east] == 1100.0)
-    assert found[4, 1] == 1100.0
+    assert np.all(heights[:, east] == 1100.0)
+    assert heights[4, 1] == 1100.0
     assert share[4, 1] == 0.0
     west = axes[1] < -120.592
     assert np.all((share[:, west] > 0.0).sum() == share[:, west].size - 1)
-    assert found == pytest.approx(1100.0 + share * (wanted - 1100.0), abs=0.5)
+    assert heights == pytest.approx(1100.0 + share * (wanted - 1100.0), abs=0.5)
     assert np.abs(np.diff(share, axis=1)).max() < 0.5
 
 

@@ -31,13 +31,13 @@ def test_a_mask_grows_by_steps_of_eight_neighbours(reach, beyond):
 @given(masks)
 @settings(max_examples=80)
 def test_components_equal_those_of_scipy(mask):
-    found, count = label(mask)
+    labels, count = label(mask)
     expected, number = ndimage.label(mask, np.ones((3, 3)))
     assert count == number
-    assert np.array_equal(found > 0, mask)
-    pairs = {(a, b) for a, b in zip(found[mask], expected[mask], strict=True)}
+    assert np.array_equal(labels > 0, mask)
+    pairs = {(a, b) for a, b in zip(labels[mask], expected[mask], strict=True)}
     assert len(pairs) == number
-    firsts = [np.flatnonzero(found.ravel() == k)[0] for k in range(1, count + 1)]
+    firsts = [np.flatnonzero(labels.ravel() == k)[0] for k in range(1, count + 1)]
     assert firsts == sorted(firsts)
 
 

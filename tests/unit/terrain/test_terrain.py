@@ -24,7 +24,7 @@ def drawn(place, row, column, triangle, at_row, at_column):
     a, b, c = (triangle[:, k, None] for k in range(3))
     u, v = ((column[k] - column[a], row[k] - row[a]) for k in (b, c))
     area = u[0] * v[1] - u[1] * v[0]
-    found = []
+    points = []
     for y, x in zip(np.array_split(at_row, 32), np.array_split(at_column, 32), strict=True):
         x, y = x - column[a], y - row[a]
         s, t = (x * v[1] - y * v[0]) / area, (u[0] * y - u[1] * x) / area
@@ -32,8 +32,8 @@ def drawn(place, row, column, triangle, at_row, at_column):
         s, t = (np.take_along_axis(part, inside[None], 0)[0] for part in (s, t))
         assert np.all(np.minimum(np.minimum(s, t), 1 - s - t) > -1e-8)
         i, j, k = triangle[inside].T
-        found.append(z[i] + s * (z[j] - z[i]) + t * (z[k] - z[i]))
-    return np.concatenate(found)
+        points.append(z[i] + s * (z[j] - z[i]) + t * (z[k] - z[i]))
+    return np.concatenate(points)
 
 
 def rough(rows, columns, seed, roughness):
@@ -96,13 +96,13 @@ def test_level_ground_takes_few_triangles_and_a_hill_takes_them_where_it_is():
 
 
 def test_any_number_of_threads_makes_the_same_mesh():
-    place, made = grid(rough(200, 150, 3, 0.5)), []
+    place, meshes = grid(rough(200, 150, 3, 0.5)), []
     for threads in (1, 2, 0):
         set_threads(threads)
-        made.append(terrain.mesh(place, np.full((200, 150), 8.0)))
+        meshes.append(terrain.mesh(place, np.full((200, 150), 8.0)))
     set_threads(0)
-    for other in made[1:]:
-        for mine, its in zip(made[0], other, strict=True):
+    for other in meshes[1:]:
+        for mine, its in zip(meshes[0], other, strict=True):
             np.testing.assert_array_equal(mine, its)
 
 

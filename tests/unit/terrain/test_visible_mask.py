@@ -128,13 +128,13 @@ def flight(rng, frames, turns, length, parallel=False):
 
 def in_a_frame(place, camera, rotation, half, parallel, max_distance=np.inf):
     """Find points in the picture of any frame, each projected into every frame."""
-    found = np.zeros(len(place), bool)
+    visible = np.zeros(len(place), bool)
     for eye, axes in zip(camera, rotation, strict=True):
         x, y, z = ((place - eye) @ axes).T
         scale = 1.0 if parallel else -z
         inside = (-z > 0) & (np.abs(x) < scale * half[0]) & (np.abs(y) < scale * half[1])
-        found |= inside & (parallel | (np.linalg.norm(place - eye, axis=1) < max_distance))
-    return found
+        visible |= inside & (parallel | (np.linalg.norm(place - eye, axis=1) < max_distance))
+    return visible
 
 
 paths = st.tuples(

@@ -82,13 +82,13 @@ def test_the_level_is_fine_enough_for_the_nearest_view(make, tmp_path):
 def test_the_nearest_pixel_is_what_brute_force_finds(make, tmp_path):
     shot = make().shot()
     low, high = (np.array(corner) for corner in ((-300.0, -300.0), (300.0, 300.0)))
-    found = drape_plan.pixel_at_nearest_view(shot, low, high)
+    pixel = drape_plan.pixel_at_nearest_view(shot, low, high)
     (path,) = shot.paths
     east, north = (v.ravel() for v in np.meshgrid(*(np.linspace(-300.0, 300.0, 301),) * 2))
     place = np.column_stack([east, north, shot.ground.up(east, north)])
     seen = place[shot.visibility.visible_mask(place, 0.01)]
     true = path.pixel * float(shot.visibility.distance_from(path, seen).min())
-    assert 0.5 * true < found <= true
+    assert 0.5 * true < pixel <= true
 
 
 def test_budgets_are_kept_and_told(make, tmp_path):

@@ -120,14 +120,6 @@ def test_columns_at_the_date_line_are_asked_for_once(make):
     assert sorted(make.server.asked) == [f"/t/3/{x}/3.png" for x in (0, 1, 6, 7)]
 
 
-def test_a_second_time_nothing_is_asked(make):
-    patch = Patch(5, (3, 6), (9, 11))
-    make(Tiles()).mosaic(patch)
-    first = len(make.server.asked)
-    make(make.server.answers).mosaic(patch)
-    assert first == len(make.server.asked) == 6
-
-
 def test_a_server_without_any_tile_is_an_error_with_its_reason(make):
     with pytest.raises(InputError, match=r"status 404.*the server has no tile of the scene"):
         make(Tiles(highest=-1)).mosaic(Patch(10, (300, 310), (300, 310)))
@@ -166,8 +158,3 @@ def test_tiles_of_another_size_than_the_first_are_missing(make):
     assert tiles.side == 512
     assert pixels.shape == (512, 1024, 4)
     assert [reason for _, reason in tiles.missing.values()] == ["is 256 pixels large, others 512"]
-
-
-def test_every_request_has_our_name(make):
-    make(Tiles()).mosaic(Patch(1, (0, 2), (0, 2)))
-    assert all(each["User-Agent"].startswith("Firetwin/") for each in make.server.headers)

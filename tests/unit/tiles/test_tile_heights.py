@@ -31,15 +31,15 @@ def tile(position, triangle, origin=(0.0, 0.0, 0.0)):
 
 def highest(position, triangles, x, y):
     """Height of the highest triangle over a point, by solving for each; NaN without."""
-    found = np.nan
+    top = np.nan
     for corners in position[triangles]:
         matrix = np.vstack([corners[:, :2].T, np.ones(3)])
         if abs(np.linalg.det(matrix)) < 1e-9:
             continue
         weight = np.linalg.solve(matrix, [x, y, 1.0])
         if weight.min() >= -1e-9:
-            found = np.fmax(found, weight @ corners[:, 2])
-    return found
+            top = np.fmax(top, weight @ corners[:, 2])
+    return top
 
 
 @given(st.integers(0, 10_000))

@@ -205,7 +205,7 @@ def test_a_composite_within_a_composite():
 
 
 def test_what_content_is():
-    found = {
+    kinds = {
         kind: tiles.content_type(content, "x")
         for kind, content in {
             "glb": made.glb({}),
@@ -215,7 +215,7 @@ def test_what_content_is():
             "pnts": made.pnts({}, b""),
         }.items()
     }
-    assert found == {kind: kind for kind in found}
+    assert kinds == {kind: kind for kind in kinds}
     with pytest.raises(InputError, match="begins with 3c 68 74 6d"):
         tiles.content_type(b"<html>", "x")
     with pytest.raises(InputError, match="tile: is a tileset"):

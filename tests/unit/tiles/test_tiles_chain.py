@@ -1,11 +1,9 @@
 """Faults of tiles, line by line, from a server to the selection: fetch, decode, select.
 
-The lines are in the table of docs/tiles.md. In each case the job continues with the available tiles, reports
-missing tiles, and fails if it is strict; or it stops with the service's message.
+The lines are in the table of docs/tiles.md; test_tiles_http.py has the faults of servers. In each case the
+job continues with the available tiles, reports missing tiles, and fails if it is strict.
 """
 
-import errno
-import gzip
 import json
 import os
 import signal
@@ -18,7 +16,6 @@ import geodesy
 import numpy as np
 import pytest
 import tile_files as made
-from firetwin import files
 from firetwin.data import sample
 from firetwin.errors import Error, InputError
 from firetwin.jobs import worker
@@ -29,11 +26,10 @@ from firetwin.shot.terrain import tile_heights
 from firetwin.shot.tiles import tile_cut
 from firetwin.tiles import decoded, policies
 from firetwin.tiles.policies import Policy
-from firetwin.tiles.sources import backoff, connection, http, http_cache
+from firetwin.tiles.sources import backoff, http, http_cache
 from firetwin.tiles.sources.network import Network
 from lying_server import Reply, serving
 
-SECRET = "k3y-of-somebody"
 FRESH = {"Cache-Control": "private, max-age=3600", "ETag": '"1"'}
 SCENE = """run = "run"
 time = { frames = 1 }
@@ -103,13 +99,13 @@ class Chain:
         server.answers |= {path: Reply(200, data, FRESH) for path, data in self.files.items()}
 
     def shot_of(self):
-        known = replace(
+        tiles = replace(
             self.shot.settings.tiles,
             sources=(f"{self.server.url}/t/tileset.json{self.query}",),
             max_screen_space_error=1.0,
             geoid=-24.9,
         )
-        return self.shot.with_settings(replace(self.shot.settings, tiles=known, cache=self.folder / "cache"))
+        return self.shot.with_settings(replace(self.shot.settings, tiles=tiles, cache=self.folder / "cache"))
 
     def make(self, **access):
         """The cut and its messages."""
@@ -202,128 +198,6 @@ def test_a_file_beside_a_tile_that_is_not_there(chain):
     assert len(cut.tiles) > 0
 
 
-def test_a_status_403_of_an_open_server(chain):
-    leaf, whole = chain.leaf()
-    chain.server.answers[leaf] = Reply(403, b"not for you")
-    missing(chain, leaf, "is refused (status 403: not for you)", whole)
-
-
-def with_sessions(chain, alive, monkeypatch):
-    """Tiles want the key and a session that is alive; each answer of the root hands out another one."""
-    known = Policy("an imitation", key_parameter="key", session_parameter="session")
-    monkeypatch.setattr(policies, "for_host", lambda host: known)
-    root = json.loads(chain.files["/t/tileset.json"])
-    sessions = iter(range(1, 9))
-
-    def named(tile, session):
-        tile = dict(tile)
-        if "content" in tile:
-            tile["content"] = {"uri": f"{tile['content']['uri']}?session=s3ssion-{session}"}
-        tile["children"] = [named(each, session) for each in tile.get("children", [])]
-        return tile
-
-    def give_root(query, _):
-        if query.get("key") != SECRET:
-            return Reply(403, b"no key")
-        return Reply(200, json.dumps(root | {"root": named(root["root"], next(sessions))}).encode(), FRESH)
-
-    def give(path):
-        def content(query, _):
-            if query.get("key") != SECRET or query.get("session") not in alive:
-                return Reply(403, f"key {query.get('key')}: session is over".encode())
-            return Reply(200, chain.files[path], FRESH)
-
-        return content
-
-    chain.server.answers |= {path: give(path) for path in chain.files if path.endswith(".glb")}
-    chain.server.answers["/t/tileset.json"] = give_root
-    chain.query = f"?key={SECRET}"
-
-
-def test_a_session_that_has_ended_is_renewed_once(chain, monkeypatch):
-    _, whole = chain.leaf()
-    with_sessions(chain, ["s3ssion-2"], monkeypatch)
-    cut, told = chain.make()
-    assert not cut.missing
-    assert len(cut.tiles) == len(whole.tiles)
-    assert SECRET not in told
-    assert sum(each.startswith("/t/tileset.json") for each in chain.server.asked) == 2
-
-
-def test_the_second_time_the_services_own_words_end_it(chain, monkeypatch):
-    with_sessions(chain, [], monkeypatch)
-    with pytest.raises(InputError, match=r"is refused .*session is over.*check the key") as caught:
-        chain.make()
-    assert SECRET not in str(caught.value)
-
-
-def test_status_429_pauses_as_long_as_the_server_asks(chain, clock):
-    leaf, whole = chain.leaf()
-    chain.server.answers[leaf] = [Reply(429, b"", {"Retry-After": "37"}), chain.server.answers[leaf]]
-    cut, _ = chain.make()
-    assert cut == replace(whole, folder=cut.folder)
-    assert max(clock.slept) == pytest.approx(37.0, abs=1.0)
-
-
-@pytest.mark.parametrize("status", [500, 503])
-def test_a_server_in_trouble_is_asked_again_five_times(chain, clock, status):
-    leaf, whole = chain.leaf()
-    chain.server.answers[leaf] = [*[Reply(status)] * 5, chain.server.answers[leaf]]
-    cut, _ = chain.make()
-    assert cut.tiles == whole.tiles
-    assert max(clock.slept) == pytest.approx(8.0, abs=0.1)
-    chain.forget()
-    chain.server.answers[leaf] = Reply(status)
-    missing(chain, leaf, "cannot be had after 6 attempts", whole)
-
-
-def test_three_files_in_a_row_that_cannot_be_had_end_it(chain, clock):
-    for path in chain.files:
-        if path.endswith(".glb"):
-            chain.server.answers[path] = Reply(503, b"out of order")
-    with pytest.raises(InputError, match=r"does not respond .*out of order.*; try again later"):
-        chain.make()
-
-
-def test_no_answer_in_time(chain, monkeypatch):
-    leaf, whole = chain.leaf()
-    monkeypatch.setattr(connection, "TIMEOUT", 1.0)
-    answer, held = chain.server.answers[leaf], []
-
-    def late(*_):
-        if not held:
-            held.append(True)
-            time.sleep(1.5)
-        return answer
-
-    chain.server.answers[leaf] = late
-    cut, _ = chain.make()
-    assert cut.tiles == whole.tiles
-    assert chain.server.asked.count(leaf) == 2
-
-
-@pytest.mark.parametrize("fault", ["announced", "own length", "checksum"])
-def test_what_ends_early_is_asked_for_once_more(chain, fault):
-    leaf, whole = chain.leaf()
-    data, good = chain.files[leaf], chain.server.answers[leaf]
-    packed = gzip.compress(data)
-    bad = {
-        "announced": Reply(200, data[:-9], FRESH, length=len(data)),
-        "own length": Reply(200, data[:-8], FRESH),
-        "checksum": Reply(200, packed[:-8] + bytes(8), {**FRESH, "Content-Encoding": "gzip"}),
-    }[fault]
-    chain.server.answers[leaf] = [bad, good]
-    cut, _ = chain.make()
-    assert cut.tiles == whole.tiles
-    assert chain.server.asked.count(leaf) == 2
-    chain.forget()
-    chain.server.answers[leaf] = bad
-    missing(chain, leaf, "ends early", whole)
-    asked = chain.server.asked.count(leaf)
-    chain.make()
-    assert chain.server.asked.count(leaf) == asked + 2  # it was not cached
-
-
 def swapped(monkeypatch, leaf, file):
     """Let decoders, in separate processes, read another file in place of a tile's."""
     monkeypatch.setattr(decode, "run", IN_PROCESSES)
@@ -341,17 +215,6 @@ def pipe(tmp_path):
     """A file that nobody writes: reading it takes for ever."""
     os.mkfifo(tmp_path / "pipe")
     return tmp_path / "pipe"
-
-
-def test_a_decoder_that_takes_too_long_loses_its_tile_alone(chain, monkeypatch, pipe):
-    leaf, whole = chain.leaf()
-    monkeypatch.setattr(decode, "_SECONDS", 8.0)  # busy machines take seconds to start a process
-    swapped(monkeypatch, leaf, pipe)
-    cut, told = chain.make()
-    (reason,) = cut.missing
-    assert reason.startswith(f"{chain.server.url}{leaf}: decoding made no progress")
-    assert reason in told
-    assert len(cut.tiles) == len(whole.tiles) - 3
 
 
 def test_a_decoder_that_dies_loses_its_tile_alone(chain, monkeypatch, pipe):
@@ -439,27 +302,11 @@ def test_no_tile_at_all_is_said(chain):
     assert f"{len(cut.missing)} tiles are missing" in told
 
 
-def test_a_full_disk_keeps_no_answers_and_goes_on(chain, monkeypatch):
-    _, whole = chain.leaf()
-    publish = files.publish
-
-    def full(part, path, durable=True):
-        if (chain.folder / "user") in Path(path).parents:
-            raise OSError(errno.ENOSPC, "No space left on device")
-        publish(part, path, durable)
-
-    monkeypatch.setattr(files, "publish", full)
-    cut, _ = chain.make(strict=True)
-    assert cut.tiles == whole.tiles
-
-
-@pytest.mark.parametrize("place", ["answers", "database", "decoded", "content", "choice"])
+@pytest.mark.parametrize("place", ["decoded", "content", "choice"])
 def test_a_damaged_cache_is_as_none(chain, place):
     whole, _ = chain.make()
-    user, own = chain.folder / "user", chain.folder / "cache" / "tiles"
+    own = chain.folder / "cache" / "tiles"
     harmed = {
-        "answers": [path for path in user.rglob("*") if path.is_file() and "answers" not in path.name],
-        "database": list(user.glob("answers.db*")),
         "decoded": [own / name for name in whole.tiles],
         "content": list((own / "content").iterdir()),
         "choice": [tile_cut.location(chain.shot_of())],

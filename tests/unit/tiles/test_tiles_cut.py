@@ -16,24 +16,24 @@ from tilesets import GLB, Memory, box, load, subtree, tile, tileset
 def random_tileset(rng, files, depth=0, place=(0.0, 0.0, 0.0), half=40.0):
     """A tile and its descendants; some of them go into separate files."""
     name = f"{len(files)}.glb"
-    made = tile(half * rng.uniform(0.05, 0.3), None, volume=box(*place, half=half))
+    child = tile(half * rng.uniform(0.05, 0.3), None, volume=box(*place, half=half))
     if rng.random() < 0.85:
-        made["content"] = {"uri": name}
+        child["content"] = {"uri": name}
         files[name] = GLB
     if rng.random() < 0.7 or depth == 0:
-        made["refine"] = str(rng.choice(["ADD", "REPLACE"]))
+        child["refine"] = str(rng.choice(["ADD", "REPLACE"]))
     if rng.random() < 0.1:
-        made["viewerRequestVolume"] = {"sphere": [*place, float(rng.uniform(10, 120))]}
+        child["viewerRequestVolume"] = {"sphere": [*place, float(rng.uniform(10, 120))]}
     if depth < 4 and rng.random() < 0.85:
-        made["children"] = [
+        child["children"] = [
             random_tileset(rng, files, depth + 1, tuple(place + rng.uniform(-0.5, 0.5, 3) * half), half / 2)
             for _ in range(rng.integers(1, 4))
         ]
     if depth and rng.random() < 0.15:
         inner = f"{len(files)}.json"
-        files[inner] = tileset(made | {"refine": made.get("refine", "REPLACE")})
-        return tile(made["geometricError"] * 1.5, inner, volume=made["boundingVolume"])
-    return made
+        files[inner] = tileset(child | {"refine": child.get("refine", "REPLACE")})
+        return tile(child["geometricError"] * 1.5, inner, volume=child["boundingVolume"])
+    return child
 
 
 def brute(files, views, eyes, target):

@@ -78,11 +78,11 @@ def test_egm96_is_that_of_others():
     path = next((each for each in geoid._candidates() if each.is_file()), None)
     if path is None:
         pytest.skip("this machine has no grid of EGM96")
-    found = geoid.read(path)
-    assert np.abs(found.height(*EGM96.T) - PUBLISHED).max() < 0.01
+    grid = geoid.read(path)
+    assert np.abs(grid.height(*EGM96.T) - PUBLISHED).max() < 0.01
     if path.suffix == ".gtx":
         shift = pyproj.Transformer.from_pipeline(f"+proj=vgridshift +grids={path} +multiplier=1")
         rng = np.random.default_rng(2)
         latitude, longitude = rng.uniform(-89, 89, 500), rng.uniform(-180, 180, 500)
         theirs = shift.transform(longitude, latitude, np.zeros(500))[2]
-        assert np.abs(found.height(latitude, longitude) - theirs).max() < 1e-5
+        assert np.abs(grid.height(latitude, longitude) - theirs).max() < 1e-5

@@ -201,19 +201,19 @@ def test_files_beside_the_content():
     content.json["buffers"] = [{"byteLength": len(content.binary), "uri": "tree.bin"}]
     model = made.glb(content.document())
     i3dm = made.i3dm(b"models/tree.glb ", {"INSTANCES_LENGTH": 1, "POSITION": [0, 0, 0]}, embedded=False)
-    known = {}
+    resources = {}
     assert tiles.list_missing_resources(i3dm, "a") == ["models/tree.glb"]
     with pytest.raises(InputError, match=r"models/tree\.glb is not among the resources"):
         decode(i3dm)
-    known["models/tree.glb"] = model
-    assert tiles.list_missing_resources(i3dm, "a", known) == ["models/tree.bin"]
-    known["models/tree.bin"] = content.binary
-    assert tiles.list_missing_resources(made.cmpt(i3dm), "a", known) == []
-    tile = decode(i3dm, resources=known)
+    resources["models/tree.glb"] = model
+    assert tiles.list_missing_resources(i3dm, "a", resources) == ["models/tree.bin"]
+    resources["models/tree.bin"] = content.binary
+    assert tiles.list_missing_resources(made.cmpt(i3dm), "a", resources) == []
+    tile = decode(i3dm, resources=resources)
     np.testing.assert_allclose(places(tile), made.SQUARE, atol=1e-7)
     assert [(i.kind, i.uri, i.data) for i in tile.images] == [("", "models/wood.png", b"")]
-    known["models/wood.png"] = made.png(7, 9)
-    (image,) = decode(i3dm, resources=known).images
+    resources["models/wood.png"] = made.png(7, 9)
+    (image,) = decode(i3dm, resources=resources).images
     assert (image.kind, image.width, image.height, image.data) == ("png", 7, 9, made.png(7, 9))
 
 

@@ -496,8 +496,8 @@ def test_another_session_finds_what_one_has_cached(server, opened):
 
 
 def test_redaction():
-    made = secret.Redactor()
-    made.add("abc/def+1", "no")
+    redactor = secret.Redactor()
+    redactor.add("abc/def+1", "no")
     for text, wanted in (
         ("GET /x?a=1&Key=AIza123&b=2", "GET /x?a=1&Key=...&b=2"),
         ("it says abc/def+1 twice: abc%2Fdef%2B1", "it says ... twice: ..."),
@@ -506,7 +506,7 @@ def test_redaction():
         ("Authorization: Bearer eyJhbGc.x", "Authorization: ... ..."),
         ("no secret", "no secret"),
     ):
-        assert made.text(text) == wanted
+        assert redactor.text(text) == wanted
     assert secret.split("https://a.example/x?v=1&session=q#f") == (
         "https://a.example/x?v=1",
         {"session": "q"},

@@ -22,13 +22,13 @@ def tiling(scheme="QUADTREE", levels=2, available=4, **more):
 
 def morton(dimensions, level):
     """Coordinates of a level's tiles in Morton order, one bit after another."""
-    found = []
+    places = []
     for index in range(2 ** (dimensions * level)):
         place = [0] * 3
         for bit in range(level * dimensions):
             place[bit % dimensions] |= (index >> bit & 1) << (bit // dimensions)
-        found.append(tuple(place))
-    return found
+        places.append(tuple(place))
+    return places
 
 
 @pytest.mark.parametrize(("scheme", "dimensions"), [("QUADTREE", 2), ("OCTREE", 3)])
@@ -62,24 +62,24 @@ def test_a_sparse_tiling_is_what_its_bits_say(scheme, dimensions):
         )
     loader = load(tiling(scheme), files)
     assert loader.expand_all()
-    made = loader.tree
+    result = loader.tree
     wanted = [at for at, yes in there.items() if yes]
-    assert made.size == 1 + len(wanted)
-    names = sorted(made.reference(k) for k in range(made.contents))
+    assert result.size == 1 + len(wanted)
+    names = sorted(result.reference(k) for k in range(result.contents))
     assert names == sorted(
         "c/" + ".".join(map(str, at[: 1 + dimensions])) + ".glb" for at in wanted if shown[at]
     )
-    for content in range(made.contents):
-        number, _, _, level, x, y, z = made.content[content]
-        assert made.error[number] == 16.0 / 2**level
+    for content in range(result.contents):
+        number, _, _, level, x, y, z = result.content[content]
+        assert result.error[number] == 16.0 / 2**level
         edge = np.array([1.0 / 2**level] * dimensions + [1.0] * (3 - dimensions))
         centre = (2 * np.array([x, y, z]) + 1) * edge - 1.0
         np.testing.assert_allclose(
-            made.volumes.centre[number], centre if dimensions == 3 else [*centre[:2], 0]
+            result.volumes.centre[number], centre if dimensions == 3 else [*centre[:2], 0]
         )
-        np.testing.assert_allclose(np.sort(made.volumes.half[number]), np.sort(edge))
-        above = made.parent[number]
-        assert made.error[above] == (16.0 if level == 0 else 16.0 / 2 ** (level - 1))
+        np.testing.assert_allclose(np.sort(result.volumes.half[number]), np.sort(edge))
+        above = result.parent[number]
+        assert result.error[above] == (16.0 if level == 0 else 16.0 / 2 ** (level - 1))
     assert n ** len(files)
 
 

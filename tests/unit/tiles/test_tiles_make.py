@@ -81,13 +81,13 @@ def test_every_point_of_the_surface_is_a_vertex_of_the_leaves(rows, columns, lev
 
 @pytest.mark.parametrize("level", [0, 1, 2])
 def test_the_error_of_a_tile_is_that_of_its_triangles(level):
-    made = lattice.Lattice(surface(), 2)
+    grid = lattice.Lattice(surface(), 2)
     row, column = (1 << level) - 1, 0
-    rows, columns = made.block(level, row, column)
-    height, stride, worst = made.height[rows, columns].astype(float), made.stride(level), 0.0
+    rows, columns = grid.block(level, row, column)
+    height, stride, worst = grid.height[rows, columns].astype(float), grid.stride(level), 0.0
     for i in range(height.shape[0]):
         for j in range(height.shape[1]):
-            y, x = min(i // stride, made.cells[0] - 1), min(j // stride, made.cells[1] - 1)
+            y, x = min(i // stride, grid.cells[0] - 1), min(j // stride, grid.cells[1] - 1)
             v, u = i / stride - y, j / stride - x
             corner = {(a, b): height[(y + a) * stride, (x + b) * stride] for a in (0, 1) for b in (0, 1)}
             if u + v <= 1:
@@ -95,38 +95,38 @@ def test_the_error_of_a_tile_is_that_of_its_triangles(level):
             else:
                 at = corner[1, 1] * (u + v - 1) + corner[1, 0] * (1 - u) + corner[0, 1] * (1 - v)
             worst = max(worst, abs(at - height[i, j]))
-    sag = made.error(level, row, column) - worst
+    sag = grid.error(level, row, column) - worst
     assert 0.0 < sag < 0.4 * 4 ** (2 - level)  # chords of 1 km sag by 2 cm, of 4 km by 31 cm
     assert worst == 0.0 or level < 2
 
 
 def test_neighbours_share_their_borders_and_vertices_are_those_of_proj(tmp_path):
     given_surface = surface()
-    made = lattice.Lattice(given_surface, 2)
-    tileset.Maker(made, Grey(), [], tmp_path / "out").run()
-    side = made.cells[1] + 1
+    grid = lattice.Lattice(given_surface, 2)
+    tileset.Maker(grid, Grey(), [], tmp_path / "out").run()
+    side = grid.cells[1] + 1
     west, east = (positions((tmp_path / "out" / "2" / f"1_{k}.glb").read_bytes()) for k in (1, 2))
-    grids = [each[: (made.cells[0] + 1) * side].reshape(-1, side, 3) for each in (west, east)]
+    grids = [each[: (grid.cells[0] + 1) * side].reshape(-1, side, 3) for each in (west, east)]
     assert np.linalg.norm(grids[0][:, -1] - grids[1][:, 0], axis=1).max() < 0.004
-    rows, columns = made.block(2, 1, 1)
-    lat, lon = np.meshgrid(made.latitude[rows], made.longitude[columns], indexing="ij")
-    expected = np.stack(TO_EARTH.transform(lat, lon, made.height[rows, columns].astype(float)), axis=-1)
+    rows, columns = grid.block(2, 1, 1)
+    lat, lon = np.meshgrid(grid.latitude[rows], grid.longitude[columns], indexing="ij")
+    expected = np.stack(TO_EARTH.transform(lat, lon, grid.height[rows, columns].astype(float)), axis=-1)
     assert np.linalg.norm(grids[0] - expected, axis=-1).max() < 0.004
 
 
 def test_skirts_reach_below_every_other_level_of_the_edge():
-    made = lattice.Lattice(surface(), 2)
-    low, _ = terrain_tile.heights(made, 2, 1, 1)
-    mesh = terrain_tile.mesh(made, 2, 1, 1, b"")
-    count = (made.cells[0] + 1) * (made.cells[1] + 1)
-    depth = np.linalg.norm(mesh.position[count:] - mesh.position[terrain_tile._border(made.cells)], axis=1)
-    rows, columns = made.block(2, 1, 1)
-    south = made.height[rows.start].astype(float)
+    grid = lattice.Lattice(surface(), 2)
+    low, _ = terrain_tile.heights(grid, 2, 1, 1)
+    mesh = terrain_tile.mesh(grid, 2, 1, 1, b"")
+    count = (grid.cells[0] + 1) * (grid.cells[1] + 1)
+    depth = np.linalg.norm(mesh.position[count:] - mesh.position[terrain_tile._border(grid.cells)], axis=1)
+    rows, columns = grid.block(2, 1, 1)
+    south = grid.height[rows.start].astype(float)
     at = np.arange(len(south))
-    others = [np.interp(at, at[:: made.stride(level)], south[:: made.stride(level)]) for level in (0, 1)]
+    others = [np.interp(at, at[:: grid.stride(level)], south[:: grid.stride(level)]) for level in (0, 1)]
     gap = max(np.abs(each - south)[columns].max() for each in others)
     assert depth.min() > gap
-    assert low < made.height[rows, columns].min()
+    assert low < grid.height[rows, columns].min()
 
 
 def test_triangles_look_outwards():

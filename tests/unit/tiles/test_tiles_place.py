@@ -23,17 +23,17 @@ def test_places_are_those_of_geographiclib_and_proj_within_4_mm_at_60_km():
     lat, lon, height = corners().T
     x, y, z = Transformer.from_crs("EPSG:4979", "EPSG:4978", always_xy=True).transform(lon, lat, height)
     matrix = place.ecef_to_frame(frame)
-    found = np.column_stack([x, y, z]) @ matrix[:3, :3].T + matrix[:3, 3]
+    positions = np.column_stack([x, y, z]) @ matrix[:3, :3].T + matrix[:3, 3]
     expected = frame.forward(lat, lon, height)  # GeographicLib's LocalCartesian
     assert np.abs(expected[:, :2]).max() > 59_000
-    assert np.abs(found - expected).max() < 1e-7
+    assert np.abs(positions - expected).max() < 1e-7
     topocentric = f"+proj=topocentric +ellps=WGS84 +lat_0={ORIGIN[0]} +lon_0={ORIGIN[1]} +h_0=0"
     pipeline = f"+proj=pipeline +step +proj=cart +ellps=WGS84 +step {topocentric}"
     by_proj = Transformer.from_pipeline(pipeline).transform(
         np.radians(lon), np.radians(lat), height, radians=True
     )
-    assert np.abs(found - np.column_stack(by_proj)).max() < 1e-6
-    assert np.abs(found.astype(np.float32) - expected).max() <= 4e-3
+    assert np.abs(positions - np.column_stack(by_proj)).max() < 1e-6
+    assert np.abs(positions.astype(np.float32) - expected).max() <= 4e-3
 
 
 def test_boxes_of_tiles_with_transforms_keep_4_mm():

@@ -198,14 +198,14 @@ def test_no_view_sees_nothing():
     ],
 )
 def test_impossible_volumes(change, message):
-    made = lod.ViewSet([[0, 0, 0]], np.eye(3), [0.5, 0.5])
+    views = lod.ViewSet([[0, 0, 0]], np.eye(3), [0.5, 0.5])
     arguments = {
         "centre": [[0, 0, 0]],
         "axis": [np.eye(3)],
         "half": [[1, 1, 1]],
         "padding": [0],
         "error": [1.0],
-        "views": made,
+        "views": views,
         "pixels": [1.0],
     }
     with pytest.raises(ValueError, match=message):

@@ -20,27 +20,27 @@ DOUBLE = [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]
 
 def test_parents_come_before_children_and_refine_is_inherited():
     leaf = tile(1.0, "c.glb")
-    made = load(tile(8.0, "a.glb", [tile(4.0, "b.glb", [leaf], refine="ADD"), leaf], refine="REPLACE")).tree
-    assert made.parent.tolist() == [-1, 0, 1, 0]
-    assert made.error.tolist() == [8.0, 4.0, 1.0, 1.0]
-    assert made.replaces.tolist() == [True, False, False, True]
-    assert made.level.tolist() == [0, 1, 2, 1]
-    assert [made.reference(k) for k in range(4)] == ["a.glb", "b.glb", "c.glb", "c.glb"]
-    assert made.path(2) == "$.root.children[0].children[0]"
+    result = load(tile(8.0, "a.glb", [tile(4.0, "b.glb", [leaf], refine="ADD"), leaf], refine="REPLACE")).tree
+    assert result.parent.tolist() == [-1, 0, 1, 0]
+    assert result.error.tolist() == [8.0, 4.0, 1.0, 1.0]
+    assert result.replaces.tolist() == [True, False, False, True]
+    assert result.level.tolist() == [0, 1, 2, 1]
+    assert [result.reference(k) for k in range(4)] == ["a.glb", "b.glb", "c.glb", "c.glb"]
+    assert result.path(2) == "$.root.children[0].children[0]"
 
 
 def test_transforms_chain_and_scale_errors_spheres_and_boxes_but_no_regions():
     region = {"region": [0.1, 0.2, 0.11, 0.21, 0.0, 50.0]}
     ball = {"sphere": [1, 0, 0, 3]}
     inner = [tile(1.0, volume=ball, transform=DOUBLE), tile(1.0, volume=region, transform=DOUBLE)]
-    made = load(tile(4.0, children=inner, transform=SHIFT, refine="ADD")).tree
-    np.testing.assert_array_equal(made.matrix_of(0)[:3, 3], [10, 20, 30])
-    np.testing.assert_array_equal(made.matrix_of(1) @ [1, 0, 0, 1], [12, 20, 30, 1])
-    assert made.error.tolist() == [4.0, 2.0, 2.0]
-    np.testing.assert_allclose(made.volumes.centre[:2], [[10, 20, 30], [12, 20, 30]])
-    np.testing.assert_allclose(made.volumes.padding, [0, 6, 0])
+    result = load(tile(4.0, children=inner, transform=SHIFT, refine="ADD")).tree
+    np.testing.assert_array_equal(result.matrix_of(0)[:3, 3], [10, 20, 30])
+    np.testing.assert_array_equal(result.matrix_of(1) @ [1, 0, 0, 1], [12, 20, 30, 1])
+    assert result.error.tolist() == [4.0, 2.0, 2.0]
+    np.testing.assert_allclose(result.volumes.centre[:2], [[10, 20, 30], [12, 20, 30]])
+    np.testing.assert_allclose(result.volumes.padding, [0, 6, 0])
     alone = load(tile(1.0, volume=region)).tree
-    np.testing.assert_array_equal(made.volumes.centre[2], alone.volumes.centre[0])
+    np.testing.assert_array_equal(result.volumes.centre[2], alone.volumes.centre[0])
 
 
 def test_an_external_tileset_continues_the_transforms_below_its_holder():
@@ -50,13 +50,13 @@ def test_an_external_tileset_continues_the_transforms_below_its_holder():
         core.REPLACES | core.UNCONDITIONAL | core.PENDING | core.PASS_THROUGH,
     ]
     loader.expand([0])
-    made = loader.tree
-    assert made.parent.tolist() == [-1, 0]
-    assert made.error.tolist() == [8.0, 4.0]
-    np.testing.assert_array_equal(made.matrix_of(1) @ [1, 0, 0, 1], [12, 20, 30, 1])
+    result = loader.tree
+    assert result.parent.tolist() == [-1, 0]
+    assert result.error.tolist() == [8.0, 4.0]
+    np.testing.assert_array_equal(result.matrix_of(1) @ [1, 0, 0, 1], [12, 20, 30, 1])
     assert loader.content_uri(1) == "in/x.glb"
-    assert made.replaces.all()  # inherited
-    assert made.flags().tolist()[1] == core.REPLACES | core.CONTENT
+    assert result.replaces.all()  # inherited
+    assert result.flags().tolist()[1] == core.REPLACES | core.CONTENT
 
 
 def test_a_content_is_told_by_its_bytes():
@@ -281,28 +281,30 @@ def inside(volume, places):
     ],
 )
 def test_a_box_holds_its_region_and_is_hardly_larger(region):
-    made = volumes.of_regions(np.array([region]))
+    boxes = volumes.of_regions(np.array([region]))
     west, south, east, north, low, high = region
     width = (east - west) % (2 * math.pi) or (2 * math.pi if east > west else 0.0)
     grid = np.meshgrid(np.linspace(0, width, 41), np.linspace(south, north, 41), [low, high])
     lon, lat, height = (each.ravel() for each in grid)
     places = ellipsoid.ecef(lat, west + lon, height)
-    assert inside(made, places) < 1e-6
-    along = (places - made.centre[0]) @ made.axis[0].T
+    assert inside(boxes, places) < 1e-6
+    along = (places - boxes.centre[0]) @ boxes.axis[0].T
     if width <= math.pi:
-        np.testing.assert_allclose(np.abs(along).max(axis=0), made.half[0], rtol=0.01, atol=1e-6)
+        np.testing.assert_allclose(np.abs(along).max(axis=0), boxes.half[0], rtol=0.01, atol=1e-6)
 
 
 def test_slanted_boxes_are_held_by_their_box():
     rng = np.random.default_rng(1)
     numbers = rng.normal(size=(200, 12))
-    made = volumes.of_boxes(numbers)
+    boxes = volumes.of_boxes(numbers)
     signs = rng.choice([-1.0, 1.0], size=(200, 3))
     corner = numbers[:, :3] + np.einsum("nk,nki->ni", signs, numbers[:, 3:].reshape(-1, 3, 3))
-    along = np.abs(np.einsum("nki,ni->nk", made.axis, corner - made.centre)) - made.half
+    along = np.abs(np.einsum("nki,ni->nk", boxes.axis, corner - boxes.centre)) - boxes.half
     assert along.max() < 1e-9
-    np.testing.assert_allclose(np.einsum("nki,nji->nkj", made.axis, made.axis), [np.eye(3)] * 200, atol=1e-12)
-    assert (made.radius >= np.linalg.norm(corner - made.centre, axis=1) - 1e-9).all()
+    np.testing.assert_allclose(
+        np.einsum("nki,nji->nkj", boxes.axis, boxes.axis), [np.eye(3)] * 200, atol=1e-12
+    )
+    assert (boxes.radius >= np.linalg.norm(corner - boxes.centre, axis=1) - 1e-9).all()
 
 
 FLAT = [[0] * 15 + [1], [1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], [1, 0, 0, 0, 0, 1] + [0] * 9 + [1]]
