@@ -33,7 +33,6 @@ exec "$python" -m pytest tests/unit -q -n "$(nproc)" --dist worksteal -p no:cach
   --deselect tests/unit/commands/test_memory.py::test_what_is_free_between_what_is_used_goes_back \
   --deselect tests/unit/commands/test_memory.py::test_the_peak_stays_when_memory_is_free_again \
   --deselect tests/unit/models/test_convert.py::test_damaged_files_are_a_run_or_one_line \
-  --deselect tests/unit/tiles/test_tiles_chain.py::test_a_decoder_that_takes_too_long_loses_its_tile_alone \
-  --deselect tests/unit/tiles/test_tiles_chain.py::test_a_decoder_that_dies_loses_its_tile_alone \
-  --deselect tests/unit/tiles/test_tiles_chain.py::test_a_decoder_over_its_memory_loses_its_tile_alone \
-  --deselect tests/unit/tiles/test_tiles_decode.py
+  --deselect tests/unit/tiles/servers/test_tiles_chain.py::test_a_decoder_that_dies_loses_its_tile_alone \
+  --deselect tests/unit/tiles/servers/test_tiles_chain.py::test_a_decoder_over_its_memory_loses_its_tile_alone \
+  --deselect tests/unit/tiles/content/test_tiles_decode.py
