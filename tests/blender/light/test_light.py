@@ -66,14 +66,6 @@ def test_smoke_over_flames_is_orange_in_the_picture_of_a_moonlit_night(
     assert saturation > 0.7
 
 
-def test_building_twice_leaves_one_sky(shot, stage, scene):
-    for _ in range(2):
-        light.build(shot, stage)
-    assert [world.name for world in bpy.data.worlds] == ["Firetwin Sky"]
-    assert len(bpy.data.lights) == 1
-    assert len(compat.fcurves(scene)) == 1
-
-
 def test_a_scene_that_is_not_ours_keeps_its_world_and_its_colours(shot, scene):
     scene.world = bpy.data.worlds.new("mine")
     view = scene.view_settings

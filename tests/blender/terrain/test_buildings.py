@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 import bpy
 import numpy as np
 import pytest
-from firetwin.run.buildings import ASSUMED, Building, Footprint, placement
+from firetwin.run.buildings import ASSUMED, Building, Footprint
 from firetwin.scene import build
 from firetwin.scene.terrain import buildings, windows
 from firetwin.shot.shot import Shot
@@ -63,24 +63,6 @@ def points(data):
     return found.reshape(-1, 3).astype(float)
 
 
-def test_walls_reach_into_the_ground_and_roofs_are_level_on_a_slope(built):
-    shot, data, _ = built(([ring(0, 0, 60, 80)], {"height": 12}), ([ring(200, 0, 30, 30)], {"levels": 2}))
-    corner, number = points(data), values(data, "number", 1, len(data.polygons), "value")[:, 0]
-    for k, (high, wide, tall) in enumerate(((60, 80, 12.0), (30, 30, 6.4)), 1):
-        mine = corner.reshape(-1, 3, 3)[number == k].reshape(-1, 3)
-        base, roof = mine[:, 2].min(), mine[:, 2].max()
-        low, span = mine[:, :2].min(axis=0), np.ptp(mine[:, :2], axis=0)
-        assert span == pytest.approx((wide, high), rel=0.01)
-        at = low + np.stack(np.meshgrid(*(np.linspace(0.01, 0.99, 40),) * 2), -1).reshape(-1, 2) * span
-        ground = shot.ground.up(*at.T)
-        assert np.ptp(ground) > 1.0  # a slope
-        assert base < ground.min()
-        assert base == pytest.approx(ground.min() - placement.SKIRT, abs=1.0)
-        middle = float(shot.ground.up(*(low + 0.5 * span))[0])
-        assert roof == pytest.approx(max(middle + tall, ground.max() + 1.0), abs=0.5)
-        assert set(np.round(mine[:, 2], 3)) == {round(base, 3), round(roof, 3)}
-
-
 def test_blocks_carry_the_attributes_of_the_ground(built):
     shot, data, _ = built(([ring(0, 0, 60, 80)], {"height": 12}))
     latitude, longitude, height = shot.ground.frame.reverse(points(data))
@@ -91,21 +73,6 @@ def test_blocks_carry_the_attributes_of_the_ground(built):
     rows, columns = shot.ground.shape
     assert place[:, 0] * columns - 0.5 == pytest.approx(column, abs=0.01)
     assert place[:, 1] * rows - 0.5 == pytest.approx(row, abs=0.01)
-
-
-@pytest.mark.parametrize("way", [1, -1])
-def test_courtyards_stay_open_and_all_faces_look_outwards(built, way):
-    outline = [ring(0, 0, 60, 80, way), ring(20, 20, 20, 40, way)]
-    _, data, _ = built((outline, {"height": 12}))
-    corner = points(data).reshape(-1, 3, 3)
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    roof = np.abs(normal[:, 2]) > 1.0
-    assert np.all(normal[roof, 2] > 0.0)
-    area = 0.5 * normal[roof, 2].sum()
-    assert area == pytest.approx(60 * 80 - 20 * 40, rel=0.01)
-    base, top = corner[..., 2].min(), corner[..., 2].max()
-    volume = np.sum(np.einsum("ij,ij->i", corner[:, 0], normal)) / 6.0 - base * area / 3.0
-    assert volume == pytest.approx((top - base) * area, rel=1e-3)
 
 
 def test_what_is_assumed_and_mended_is_told(built):

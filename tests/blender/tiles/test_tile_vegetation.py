@@ -138,19 +138,6 @@ def test_things_stand_on_the_ground_and_cameras_clear_the_crowns(seen):
     assert flight.short(shot.ground, place, np.array([10.0]))[0] > 7.0
 
 
-def test_the_border_has_no_step(seen):
-    make, made = seen
-    edge = np.zeros(made.east.shape, bool)
-    edge[[0, -1]] = edge[:, [0, -1]] = True
-    edge &= (made.growth == 0.0) & ~made.roof
-    steps = [
-        np.abs(make("scene", source).ground.up(made.east[edge], made.north[edge]) - made.ground[edge]).max()
-        for source in ("elevation", "tiles")
-    ]
-    assert steps[0] > 1.4  # OFF
-    assert steps[1] < 0.3
-
-
 def test_skirts_are_at_the_border_alone(seen):
     make, made = seen
     shot = make()

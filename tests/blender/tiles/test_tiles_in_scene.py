@@ -92,12 +92,6 @@ def test_sidecars_name_credits_and_missing_tiles(tiled, tmp_path):
     assert said["tiles"] == {"missing": ["x.glb: gone"], "error": cut.error}
 
 
-def test_pictures_that_are_too_small_for_credits_are_refused(tiled):
-    small = replace(tiled.settings, render=replace(tiled.settings.render, resolution=(16, 16)))
-    with pytest.raises(InputError, match="do not fit into a picture of 16 x 16"):
-        selection.make(tiled.with_settings(small))
-
-
 def test_tiles_that_were_not_prepared_are_an_error(tiled):
     moved = replace(tiled.settings.tiles, max_screen_space_error=3.0)
     with pytest.raises(InputError, match="were not prepared"):

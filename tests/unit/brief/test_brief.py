@@ -16,7 +16,6 @@ import whole_run
 from firetwin import cli, html_text
 from firetwin.brief import (
     briefing,
-    command,
     curve,
     facts,
     film,
@@ -660,12 +659,6 @@ def test_the_command_wants_an_html_file(folder, tmp_path, capsys):
     assert "name an .html file" in capsys.readouterr().err
 
 
-def test_a_page_has_32_megabytes_at_most_unless_more_is_asked_for(folder, tmp_path, capsys):
-    assert command.LIMIT == 32_000_000
-    assert cli.main(["brief", str(folder), "--out", str(tmp_path / "page.html"), "--limit", "10KB"]) == 2
-    assert "above the limit of 10 kB" in capsys.readouterr().err
-
-
 def test_a_limit_below_any_page_is_refused_before_the_work(folder, tmp_path, monkeypatch):
     monkeypatch.setattr(briefing, "gather", lambda _: pytest.fail("the work began"))
     assert cli.main(["brief", str(folder), "--out", str(tmp_path / "page.html"), "--limit", "10KB"]) == 2
@@ -690,9 +683,3 @@ def test_controls_and_tables_have_names_and_the_page_a_language(folder, gpkg):
     assert not any(int(attributes.get("tabindex", 0)) > 0 for _, attributes, _ in parsed.elements)
     ids = [attributes["id"] for _, attributes, _ in parsed.elements if "id" in attributes]
     assert len(ids) == len(set(ids))
-
-
-def test_motion_and_forced_colours_are_respected():
-    style = (Path(page.__file__).parent / "page.css").read_text()
-    assert "@media (prefers-reduced-motion: reduce)" in style
-    assert "@media (forced-colors: active)" in style

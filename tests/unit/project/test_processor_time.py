@@ -6,7 +6,7 @@ from processor_time import Account, Room, Speed, find_room, load_rooms
 
 def test_the_longest_path_that_fits_pays():
     rooms = load_rooms()
-    assert find_room(rooms, "tests/unit/tiles/servers/test_tiles_http.py::test_a[b::c]").name == "unit/tiles/servers"
+    assert find_room(rooms, "tests/unit/tiles/servers/test_a.py::test_a[b::c]").name == "unit/tiles/servers"
     assert find_room(rooms, "tests/system/farm/test_new.py::test_a").name == "system/farm"
     assert find_room(rooms, "tests/system/test_new.py::test_a").name == "system"
 

@@ -173,11 +173,6 @@ def test_credits_come_from_the_settings_of_a_url_and_of_a_file(make, tmp_path):
     assert not picture_credits.of_settings(ShotSource(scene=str(file)).settings())  # no photo
 
 
-def test_pictures_too_small_for_the_credit_are_refused(make, tmp_path):
-    with pytest.raises(InputError, match="do not fit into a picture of"):
-        picture_credits.check_room(make().shot(), Credits(("A long name " * 2000,)))
-
-
 @pytest.mark.parametrize(
     ("about", "why"),
     [

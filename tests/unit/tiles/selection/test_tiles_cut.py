@@ -147,16 +147,6 @@ def test_a_budget_is_kept_and_the_price_said():
     assert by_triangles.triangles == 1000
 
 
-def test_an_ancestor_stands_in_for_what_is_missing_and_it_is_named():
-    below = [tile(1.0, "a.glb", volume=box(50.0)), tile(1.0, "b.glb", volume=box(60.0))]
-    root = tile(30.0, "r.glb", below, volume=box(50.0, half=20.0), refine="REPLACE")
-    loader = load(root, {"a.glb": GLB, "r.glb": GLB})
-    choice = cut.select_tiles(loader, looking(0.0), HERE, 2.0)
-    assert names(loader, choice) == ["r.glb"]
-    assert choice.stand_ins.tolist() == [0]
-    assert "1 tiles are missing, the first: b.glb: is not there" in choice.message()
-
-
 def test_contents_are_handed_over_once():
     got = []
     loader = load(tile(1.0, "a.glb", volume=box(50.0)), {"a.glb": GLB})

@@ -293,15 +293,6 @@ def test_a_box_without_extent_is_taken_as_it_is(chain):
     assert len(cut.tiles) == len(whole.tiles)
 
 
-def test_no_tile_at_all_is_said(chain):
-    for path in chain.files:
-        if path.endswith(".glb"):
-            chain.server.answers[path] = Reply(404)
-    cut, told = chain.make()
-    assert cut.tiles == ()
-    assert f"{len(cut.missing)} tiles are missing" in told
-
-
 @pytest.mark.parametrize("place", ["decoded", "content", "choice"])
 def test_a_damaged_cache_is_as_none(chain, place):
     whole, _ = chain.make()
