@@ -86,7 +86,7 @@ def to_plain(error: Error) -> dict[str, Any]:
     return {"kind": kind, "text": " ".join(str(error).split())}
 
 
-def from_plain(found: dict[str, Any], more: str = "") -> Error:
+def from_plain(plain: dict[str, Any], more: str = "") -> Error:
     """Recreate an error of another process.
 
     Parameters
@@ -94,11 +94,11 @@ def from_plain(found: dict[str, Any], more: str = "") -> Error:
     more
         Text to append to the message of an error without a file.
     """
-    kind = _KINDS[found["kind"]]
-    if "place" in found:
-        path, line, column, reason = found["place"]
+    kind = _KINDS[plain["kind"]]
+    if "place" in plain:
+        path, line, column, reason = plain["place"]
         return input_error(path, reason, line=line, column=column, kind=kind)
-    return kind(found["text"] + more)
+    return kind(plain["text"] + more)
 
 
 _KINDS: dict[str, Any] = {

@@ -94,7 +94,7 @@ def fit_folder(folder: Path, path: Path, cache: Path, time: Time | None = None) 
     return fit(readers.open(folder), Settings(path=path, run=folder, cache=cache, time=film))
 
 
-def _placed(moving: front.Front) -> list[PlacedCamera]:
+def _placed(moving: front.MovingFront) -> list[PlacedCamera]:
     visible = Visible(moving)
     kinds = (overview, chase, flank, satellite) if moving.runs else (overview, satellite)
     placed = (kind.place(moving, visible) for kind in kinds)

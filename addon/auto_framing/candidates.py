@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..run import areas, sun
-from .front import Front
+from .front import MovingFront
 from .visible_share import VisibleShare
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def nearest_enough(near: float, tried: Callable[[float], list[Tried]]) -> Tried 
     return best(candidates) if candidates else None
 
 
-def is_over_ground(front: Front, view: Path) -> bool:
+def is_over_ground(front: MovingFront, view: Path) -> bool:
     """Return whether a camera and its target stay over the run or the ground around it (`terrain.apron`)."""
     places = np.concatenate([view.position, view.target])[:, :2]  # relative to the run's centre
     reach = INSIDE * front.shot.settings.terrain.apron
@@ -114,7 +114,7 @@ def shows(visible: VisibleShare, what: str) -> str:
     return text if visible.clear >= HIDDEN else f"{text}: smoke hides most of it from every side"
 
 
-def near(front: Front, part: float, limits: tuple[float, float], over_crowns: float) -> float:
+def near(front: MovingFront, part: float, limits: tuple[float, float], over_crowns: float) -> float:
     """Distance (m) of a close camera: a fraction of one fire's size, within limits.
 
     By night it is less. It is not below the model's resolution, and among trees not so close that they
@@ -125,7 +125,7 @@ def near(front: Front, part: float, limits: tuple[float, float], over_crowns: fl
     return rounded(distance)
 
 
-def liking(front: Front, bearing: float) -> float:
+def liking(front: MovingFront, bearing: float) -> float:
     """Rating of a camera's bearing from the fire (degrees), -1..1; best is windward with the sun behind."""
     side = np.array([np.sin(np.radians(bearing)), np.cos(np.radians(bearing))])
     windward = -float(side @ front.wind)
@@ -152,7 +152,7 @@ def side(bearing: float) -> str:
     return _SIDES[round(bearing / 45.0) % 8]
 
 
-def where(front: Front, bearing: float) -> str:
+def where(front: MovingFront, bearing: float) -> str:
     """Describe a bearing: ``from the south-west, windward, with the sun behind``."""
     vector = np.array([np.sin(np.radians(bearing)), np.cos(np.radians(bearing))])
     parts = [f"from the {side(bearing)}"]
@@ -164,7 +164,7 @@ def where(front: Front, bearing: float) -> str:
     return ", ".join(parts)
 
 
-def geodetic(front: Front, place: Array) -> tuple[float, float, float]:
+def geodetic(front: MovingFront, place: Array) -> tuple[float, float, float]:
     """Latitude, longitude (degrees, to about a metre) and height above ground (m) of a point (3,)."""
     frame, ground = front.ground.frame, front.ground
     latitude, longitude, height = (float(v[0]) for v in frame.reverse(place[None]))
@@ -188,6 +188,6 @@ def percent(share: float) -> str:
     return f"{100.0 * share:.0f} %"
 
 
-def path(front: Front, camera: Camera) -> Path:
+def path(front: MovingFront, camera: Camera) -> Path:
     """Path of a camera over the bare terrain."""
     return camera.rig.path(camera, front.shot.filming, front.ground)

@@ -8,7 +8,7 @@ from ..shot.cameras.rigs.chase import Chase
 from ..shot.settings import Camera
 from . import candidates, flank
 from .candidates import PlacedCamera, Tried
-from .front import Front
+from .front import MovingFront
 from .visible_share import Visible
 
 _PART = 1.0 / 12.0  # of the fire's size: 2.4 km at 29 km, as the example's drone (by eye)
@@ -21,7 +21,7 @@ _AIM = 0.12  # of the distance, height of the aim above ground: flames below the
 _LATER = 0.01  # penalty for each later side or height
 
 
-def place(front: Front, visible: Visible) -> PlacedCamera | None:
+def place(front: MovingFront, visible: Visible) -> PlacedCamera | None:
     """Best candidate over sides and heights; farther ones while no near one shows enough.
 
     If smoke hides the head from every side, the camera stays and looks at a flank from twice the distance.
@@ -47,7 +47,7 @@ def place(front: Front, visible: Visible) -> PlacedCamera | None:
     return PlacedCamera(best.camera, best.seen.share, words)
 
 
-def _tried(front: Front, visible: Visible, distance: float) -> list[Tried]:
+def _tried(front: MovingFront, visible: Visible, distance: float) -> list[Tried]:
     """Candidates at a distance from the head, with the visible share of the front that near to it."""
     tried = []
     for number, (height, side) in enumerate((height, side) for height in _HEIGHTS for side in _SIDES):

@@ -10,7 +10,7 @@ from ..shot.cameras.rigs.drone import Drone
 from ..shot.settings import Camera
 from . import candidates
 from .candidates import PlacedCamera, Tried
-from .front import Front, some
+from .front import MovingFront, some
 from .visible_share import Visible
 
 _PART = 1.0 / 40.0  # of the fire's size (by eye)
@@ -23,7 +23,7 @@ _AIM = 0.08  # of the distance, height of the aim above ground: flames below the
 _STEEP = 0.1  # penalty for each higher step
 
 
-def place(front: Front, visible: Visible) -> PlacedCamera | None:
+def place(front: MovingFront, visible: Visible) -> PlacedCamera | None:
     """Best candidate over points, directions and heights; farther ones while no near one shows enough.
 
     None if no candidate is over ground.
@@ -43,7 +43,7 @@ def place(front: Front, visible: Visible) -> PlacedCamera | None:
     return PlacedCamera(best.camera, best.seen.share, words)
 
 
-def tried(front: Front, visible: Visible, distance: float) -> list[Tried]:
+def tried(front: MovingFront, visible: Visible, distance: float) -> list[Tried]:
     """Candidates at a distance from flanks, with the visible share of the front that near to the aim."""
     trials = []
     for at in _flanks(front):
@@ -59,7 +59,7 @@ def tried(front: Front, visible: Visible, distance: float) -> list[Tried]:
     return trials
 
 
-def _flanks(front: Front) -> NDArray[np.int64]:
+def _flanks(front: MovingFront) -> NDArray[np.int64]:
     """Points on the flanks in the middle of the window: front parallel to the fire's course, far apart.
 
     Any points of the front if the fire has no course.
@@ -73,7 +73,7 @@ def _flanks(front: Front) -> NDArray[np.int64]:
     return some(order, _PLACES)
 
 
-def _camera(front: Front, at: int, distance: float, height: float, turn: float) -> tuple[Camera, float]:
+def _camera(front: MovingFront, at: int, distance: float, height: float, turn: float) -> tuple[Camera, float]:
     """Camera in front of a front point, looking at it, and its bearing from there (degrees)."""
     bearing = float(np.degrees(np.arctan2(*front.velocity[at]))) + turn
     toward = np.radians(bearing)

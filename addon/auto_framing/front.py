@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Front:
+class MovingFront:
     """Front positions at a few times of the window; empty without fire.
 
     Attributes
@@ -112,7 +112,7 @@ def some(chosen: NDArray[np.int64], most: int) -> NDArray[np.int64]:
     return chosen[np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), most)).round().astype(np.int64))]
 
 
-def find_front(shot: Shot) -> Front:
+def find_front(shot: Shot) -> MovingFront:
     """Sample the front of a shot."""
     ground, frames = shot.bare_ground, shot.frames
     burned = ground.arrival <= max(frames.last, frames.first + 1.0)
@@ -126,7 +126,7 @@ def find_front(shot: Shot) -> Front:
     moment = np.repeat(np.arange(len(times)), [len(part[0]) for part in samples])
     index = np.clip(np.round((times - frames.first) / max(frames.step, 1.0e-9)), 0, frames.count - 1)
     point, velocity = (np.concatenate(parts) for parts in zip(*samples, strict=True))
-    return Front(
+    return MovingFront(
         shot,
         index.astype(np.int64),
         point,
@@ -138,12 +138,12 @@ def find_front(shot: Shot) -> Front:
     )
 
 
-def _nothing(shot: Shot) -> Front:
+def _nothing(shot: Shot) -> MovingFront:
     """Front of a run without fire, with the corners of its grid."""
     whole = slice(shot.bare_ground.fields.margin, -shot.bare_ground.fields.margin or None)
     none = np.zeros(0, np.int64)
     corners = _corners(shot.bare_ground, whole, whole)
-    return Front(shot, none, np.empty((0, 3)), np.empty((0, 2)), none, *corners, 0.0, False)
+    return MovingFront(shot, none, np.empty((0, 3)), np.empty((0, 2)), none, *corners, 0.0, False)
 
 
 def _corners(ground: Terrain, rows: slice, columns: slice) -> tuple[Array, Array]:

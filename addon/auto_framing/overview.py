@@ -10,7 +10,7 @@ from ..shot.cameras.rigs.drone import Drone
 from ..shot.settings import Camera
 from . import candidates
 from .candidates import Array, PlacedCamera, Tried
-from .front import Front, some
+from .front import MovingFront, some
 from .visible_share import Visible, VisibleShare
 
 _LENSES = (
@@ -31,7 +31,7 @@ _FARTHEST = 1.0e6  # m
 _STEEP = 0.01  # penalty for each degree above the lowest
 
 
-def place(front: Front, visible: Visible) -> PlacedCamera:
+def place(front: MovingFront, visible: Visible) -> PlacedCamera:
     """Best candidate over directions and heights."""
     points = front.point[some(np.arange(len(front.point)), _PLACES)] if len(front.point) else _whole(front)
     tried = []
@@ -45,7 +45,7 @@ def place(front: Front, visible: Visible) -> PlacedCamera:
     return PlacedCamera(camera, share.share, _words(front, camera, share))
 
 
-def _camera(front: Front, points: Array, bearing: float, height: float) -> Camera:
+def _camera(front: MovingFront, points: Array, bearing: float, height: float) -> Camera:
     """Camera in a direction and elevation (degrees) from the points, as near as they all allow."""
     toward, rise = np.radians([bearing, height])
     side = np.array([np.sin(toward), np.cos(toward), 0.0])
@@ -65,7 +65,7 @@ def _camera(front: Front, points: Array, bearing: float, height: float) -> Camer
 
 
 def _lens(
-    front: Front, points: Array, direction: Array, least: float, most: float
+    front: MovingFront, points: Array, direction: Array, least: float, most: float
 ) -> tuple[float, Array, float]:
     """Longest lens: focal length (mm), tangents of half angles of view, and distance (m).
 
@@ -123,7 +123,7 @@ def _middle(points: Array, side: Array) -> Array:
     return ends[0] + ends[1] + np.array([0.0, 0.0, float(points[:, 2].mean())])
 
 
-def _room(front: Front, middle: Array, side: Array) -> float:
+def _room(front: MovingFront, middle: Array, side: Array) -> float:
     """Largest distance (m) of a camera from the centre on a side, by the terrain's extent."""
     reach = candidates.INSIDE * front.shot.settings.terrain.apron
     here = middle[:2]  # relative to the run's centre, the scene's origin
@@ -132,13 +132,13 @@ def _room(front: Front, middle: Array, side: Array) -> float:
     return max(-along + float(np.sqrt(beside)), _LEAST * reach)
 
 
-def _whole(front: Front) -> Array:
+def _whole(front: MovingFront) -> Array:
     """Corners (4, 3) of the run's terrain, for a run without fire."""
     x, y = np.meshgrid(*np.stack([front.low, front.high], axis=-1))
     return np.stack([x.ravel(), y.ravel(), front.ground.up(x.ravel(), y.ravel())], axis=-1)
 
 
-def _words(front: Front, camera: Camera, visible: VisibleShare) -> str:
+def _words(front: MovingFront, camera: Camera, visible: VisibleShare) -> str:
     """Describe the camera in one line."""
     (key,) = camera.rig.keys
     view = candidates.path(front, camera)

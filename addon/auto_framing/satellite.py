@@ -9,14 +9,14 @@ from ..shot.cameras.rigs.satellite import Satellite
 from ..shot.settings import Camera
 from . import candidates
 from .candidates import PlacedCamera
-from .front import Front
+from .front import MovingFront
 from .visible_share import Visible
 
 _MORE = 2.2  # swath relative to the fire, which is in the middle; the margin shows some of its smoke
 _LEAST = 400.0  # m
 
 
-def place(front: Front, visible: Visible) -> PlacedCamera:
+def place(front: MovingFront, visible: Visible) -> PlacedCamera:
     """View of the fire by the end of the window, in the middle of the picture."""
     width, height = front.high - front.low
     across, up = front.shot.settings.render.resolution

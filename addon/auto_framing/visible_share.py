@@ -10,7 +10,7 @@ from firetwin_core import lod
 from numpy.typing import NDArray
 
 from ..shot.cameras.path import Path
-from .front import Front, some
+from .front import MovingFront, some
 
 _INSIDE = 0.97  # of the half width and half height; points nearer to the edge do not count
 _RADIUS = 1.0  # m, radius of a front point
@@ -48,7 +48,7 @@ class VisibleShare(NamedTuple):
 class Visible:
     """Visibility tests of a front."""
 
-    def __init__(self, front: Front) -> None:
+    def __init__(self, front: MovingFront) -> None:
         self.front = front
 
     @cached_property

@@ -147,13 +147,13 @@ class Briefing:
     @cached_property
     def warnings(self) -> list[tuple[str, str]]:
         """Words in large letters on each map and sheet, and their meaning."""
-        found = []
+        warnings = []
         if self.run.synthetic:
-            found.append(("SYNTHETIC", "Not the output of a fire model, and not a forecast"))
+            warnings.append(("SYNTHETIC", "Not the output of a fire model, and not a forecast"))
         if self.exercise:
             words = "Stations, resources or lines are invented: not operational advice"
-            found.append(("EXERCISE", words))
-        return found
+            warnings.append(("EXERCISE", words))
+        return warnings
 
     @cached_property
     def exercise(self) -> bool:
@@ -264,7 +264,9 @@ def _points(
     towns = labels.find(run, settings.labels.file if settings else None)
     by_name = sorted(station_file.stations, key=lambda each: (each.title, each.id)) if station_file else ()
     spots: list[Station | Label] = [*by_name, *towns]
-    found = reached.find(run, [s.latitude for s in spots], [s.longitude for s in spots], clock, error, units)
+    arrivals = reached.find(
+        run, [s.latitude for s in spots], [s.longitude for s in spots], clock, error, units
+    )
     middle = 0.5 * float(run.longitude[0] + run.longitude[-1])
     return [
         Point(
@@ -272,7 +274,7 @@ def _points(
             spot.latitude, float(areas.turned(spot.longitude, middle)), how,
             spot if isinstance(spot, Station) else None,
         )
-        for k, (spot, how) in enumerate(zip(spots, found, strict=True))
+        for k, (spot, how) in enumerate(zip(spots, arrivals, strict=True))
         if isinstance(spot, Station) or how.state != "outside"
     ]  # fmt: skip
 

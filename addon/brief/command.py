@@ -145,10 +145,10 @@ def _run(arguments: argparse.Namespace) -> None:
         arguments.ensemble,
     )
     with notify_if_slow(READING):
-        found = briefing.gather(request)
-    for note in page.notes(found):
+        gathered = briefing.gather(request)
+    for note in page.notes(gathered):
         say(note)
-    made = page.html(found, arguments.limit)
+    made = page.html(gathered, arguments.limit)
     files.write_text(arguments.out, made, newline="\n")
     say(f"wrote one file of {html_text.size(len(made.encode()))}, which loads no other files")
     result(arguments.out)
@@ -156,8 +156,8 @@ def _run(arguments: argparse.Namespace) -> None:
         pdf.write(arguments.out, arguments.pdf)
         result(arguments.pdf)
     if arguments.geopdf:
-        titles = sheet_options.Titles.of(found.run, found.sheet, found.zone)
-        sheet = map_sheet.draw(found, found.sheet, titles)
+        titles = sheet_options.Titles.of(gathered.run, gathered.sheet, gathered.zone)
+        sheet = map_sheet.draw(gathered, gathered.sheet, titles)
         pdf.write_geopdf(sheet, titles.incident, titles.author, arguments.geopdf)
         result(arguments.geopdf)
 

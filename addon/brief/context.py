@@ -65,7 +65,7 @@ def read(named: Sequence[tuple[str, Path]]) -> list[Context]:
     InputError
         A file cannot be read, or has no features.
     """
-    found = []
+    contexts = []
     for name, path in sorted(named, key=lambda each: _rank(each[0])):
         if path.suffix.lower() not in _SUFFIXES:
             raise input_error(
@@ -74,13 +74,13 @@ def read(named: Sequence[tuple[str, Path]]) -> list[Context]:
         features = observations.features(path)
         if isinstance(features, Detections) or not features:
             raise input_error(path, "has no features; export points, lines or polygons")
-        found.append(Context(name, path.name, tuple(features)))
-    return _number_resources(found)
+        contexts.append(Context(name, path.name, tuple(features)))
+    return _number_resources(contexts)
 
 
-def _number_resources(found: Sequence[Context]) -> list[Context]:
+def _number_resources(contexts: Sequence[Context]) -> list[Context]:
     """Add numbers to the resources of divisions, from 1 in the order of their tables."""
-    features = [feature for each in found for feature in each.features]
+    features = [feature for each in contexts for feature in each.features]
     sent = [each for each in features if each.properties.get("kind") == "resource"]
     sent = [each for each in sent if each.properties.get("division")]
     sent.sort(key=lambda each: str(each.properties["division"]))
@@ -91,7 +91,7 @@ def _number_resources(found: Sequence[Context]) -> list[Context]:
             return feature
         return replace(feature, properties={**feature.properties, NUMBER: numbers[id(feature)]})
 
-    return [replace(each, features=tuple(map(numbered, each.features))) for each in found]
+    return [replace(each, features=tuple(map(numbered, each.features))) for each in contexts]
 
 
 def parse(text: str) -> tuple[str, Path]:

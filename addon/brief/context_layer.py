@@ -67,7 +67,7 @@ def _feature(each: Context, feature: Feature, around: Box) -> dict[str, Any] | N
         return None
     style, symbol = context.line_style(each, feature), context.point_symbol(each, feature)
     kind = symbol if len(points) else style
-    known = map_symbols.LINES[style]
+    style_ = map_symbols.LINES[style]
     return {
         "text": ": ".join(
             dict.fromkeys(filter(None, (context.style_title(each, kind), context.label(feature))))
@@ -76,10 +76,10 @@ def _feature(each: Context, feature: Feature, around: Box) -> dict[str, Any] | N
         "polygons": [[_latlong(ring) for ring in polygon] for polygon in polygons],
         "points": _latlong(points),
         "symbol": symbol,
-        "colour": known.colour,
-        "weight": round((known.width or _LEAST) * _PIXELS, 1),
-        "dashes": " ".join(f"{float(part) * _PIXELS:.0f}" for part in known.dashes.split()),
-        "casing": known.casing,
+        "colour": style_.colour,
+        "weight": round((style_.width or _LEAST) * _PIXELS, 1),
+        "dashes": " ".join(f"{float(part) * _PIXELS:.0f}" for part in style_.dashes.split()),
+        "casing": style_.casing,
         "fill": sheet_map.fill(style),
     }
 

@@ -86,14 +86,14 @@ def short_windows(
     Windows of the status "unavailable" are omitted if there are others; areas of use, without `areas`.
     """
     windows = _overlapping(station_file, resource, span)
-    found = []
+    texts = []
     for each in [each for each in windows if each.status != "unavailable"] or windows:
         begins, ends = (when.astimezone(ZoneInfo(zone)) for when in (each.begins, each.ends))
         last = f"-{ends:%H:%M}" if begins.date() == ends.date() else f" to {ends.day} {ends:%b %H:%M}"
         status = "" if each.status == "available" else each.status
         area = f", area {each.area}" if areas and each.area else ""
-        found.append(f"{begins.day} {begins:%b %H:%M}{last} {status}".rstrip() + area)
-    return found
+        texts.append(f"{begins.day} {begins:%b %H:%M}{last} {status}".rstrip() + area)
+    return texts
 
 
 def _overlapping(

@@ -20,13 +20,13 @@ Array = NDArray[np.float64]
 _SHARES = (0.5, 0.33, 0.67, 0.15, 0.85)  # places along a line, best first
 
 
-def write(made: Content, each: Context) -> None:
+def write(content: Content, each: Context) -> None:
     """Label lines if there is space, each name of a file once; routes of resources have numbers."""
     done: set[str] = set()
     for label, line in (*_names(each), *_numbers(each)):
         if label in done or not label or len(line) < 2:
             continue
-        if any(made.label(x, y, 0.3, [label]) for x, y in _anchors(made.frame, line)):
+        if any(content.label(x, y, 0.3, [label]) for x, y in _anchors(content.frame, line)):
             done.add(label)
 
 
@@ -49,13 +49,13 @@ def _numbers(each: Context) -> Iterator[tuple[str, Array]]:
 
 def _ranges(numbers: Sequence[int]) -> str:
     """Format ascending numbers as ranges."""
-    found: list[list[int]] = []
+    ranges: list[list[int]] = []
     for number in numbers:
-        if found and number == found[-1][1] + 1:
-            found[-1][1] = number
+        if ranges and number == ranges[-1][1] + 1:
+            ranges[-1][1] = number
         else:
-            found.append([number, number])
-    return ", ".join(f"{first}" if first == last else f"{first}-{last}" for first, last in found)
+            ranges.append([number, number])
+    return ", ".join(f"{first}" if first == last else f"{first}-{last}" for first, last in ranges)
 
 
 def _anchors(frame: MapFrame, line: NDArray[np.float64]) -> Iterator[tuple[float, float]]:

@@ -66,17 +66,17 @@ def around(fronts: Sequence[Front], whole: Box, margin: float, parts: float) -> 
 def switches(briefing: Briefing) -> str:
     """Build switch, opacity and legend of each layer, topmost first."""
     filled = f'<i style="background:{FRONT_FILL}66;border:2px solid {FRONT_EDGE}"></i>burned by this time'
-    made = [_drawn("front", "Front at this time", filled)]
+    controls = [_drawn("front", "Front at this time", filled)]
     if briefing.observed:
         colour = map_symbols.LINES["Observed Perimeter"].colour
         key = f'<i style="border:2px dashed {colour}"></i>latest perimeter up to this time'
-        made.append(_drawn("observed", "Observed perimeters", key))
-    made += [
+        controls.append(_drawn("observed", "Observed perimeters", key))
+    controls += [
         _drawn(context_layer.name(number), quote(each.title), _styles(each), quote(each.file))
         for number, each in reversed(list(enumerate(briefing.context)))
     ]
-    made += [_switch(layer) for layer in reversed(briefing.layers)]
-    return "\n".join(made)
+    controls += [_switch(layer) for layer in reversed(briefing.layers)]
+    return "\n".join(controls)
 
 
 def _styles(each: Context) -> str:

@@ -126,15 +126,15 @@ def _layout(
 
 def _marks(words: tuple[str, ...], frame: MapFrame) -> list[str]:
     """Write large words across the map, so that a picture of a part of it does not pass for a forecast."""
-    made = []
+    marks = []
     for number, word in enumerate(words):
         size = min(0.9 * frame.width / (0.72 * len(word)), 0.3 * frame.height)
         x = frame.left + 0.5 * frame.width
         y = frame.top + frame.height * (number + 1.0) / (len(words) + 1.0)
-        made.append(
+        marks.append(
             f'<text class="mark" x="{x:.2f}" y="{y:.2f}" font-size="{size:.2f}" font-weight="800" '
             f'text-anchor="middle" dominant-baseline="central" transform="rotate(-14 {x:.2f} {y:.2f})" '
             f'fill="#b00020" fill-opacity="0.17" stroke="#fff" stroke-opacity="0.35" '
             f'stroke-width="{0.012 * size:.2f}">{quote(word)}</text>'
         )
-    return made
+    return marks

@@ -158,7 +158,7 @@ def _has_driver() -> bool:
         return "PDF" in gdal.drivers()
 
 
-def _browse(browser: str, page: Path, made: Path, *options: str) -> None:
+def _browse(browser: str, page: Path, pdf_file: Path, *options: str) -> None:
     """Run a browser without a window or a network, and with an empty profile."""
     with tempfile.TemporaryDirectory() as profile:
         common = [
@@ -176,6 +176,6 @@ def _browse(browser: str, page: Path, made: Path, *options: str) -> None:
             raise UsageError(
                 f"{browser} does not finish in {_SECONDS} s; print the page from a browser"
             ) from None
-    if done.returncode or not made.is_file():
+    if done.returncode or not pdf_file.is_file():
         words = done.stderr.decode("utf-8", "replace").strip().splitlines()[-1:] or ["no message"]
         raise UsageError(f"{browser} wrote no file: {words[0]}; print the page from a browser")

@@ -76,17 +76,17 @@ def find(
 
 def _reached(
     run: Run,
-    found: fire_arrival.Arrivals,
+    arrivals: fire_arrival.Arrivals,
     index: int,
     zone: str,
     error: float | None,
     distance: Callable[[float], str],
 ) -> Reached:
-    state = _STATES[int(found.state[index])]
-    away = 1000.0 * float(found.nearest_km[index])
+    state = _STATES[int(arrivals.state[index])]
+    away = 1000.0 * float(arrivals.nearest_km[index])
     return Reached(
         state,
-        arrival_text.describe(run, found, index, zone, distance, error),
-        float(found.time[index]) if state == "reached" else None,
+        arrival_text.describe(run, arrivals, index, zone, distance, error),
+        float(arrivals.time[index]) if state == "reached" else None,
         away if state == "not_reached" and np.isfinite(away) else None,
     )

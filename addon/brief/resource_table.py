@@ -81,11 +81,11 @@ def _line(briefing: Briefing, resource: Resource, areas: bool) -> Row:
 
 
 def _totals(briefing: Briefing, rows: list[tuple[Station, Resource]]) -> list[Row]:
-    found: list[Row] = []
+    totals: list[Row] = []
     for code in sorted({resource.type for _, resource in rows}):
         own = [(station, each) for station, each in rows if each.type == code]
         people = [_people(briefing, each) for _, each in own]
         known = "" if None in people else sum(filter(None, people))
         count = sum(each.count for _, each in own)
-        found.append((code, f"{count:,}", known, len({station.id for station, _ in own})))
-    return found
+        totals.append((code, f"{count:,}", known, len({station.id for station, _ in own})))
+    return totals

@@ -54,7 +54,7 @@ class Content:
 
     def line(self, style: str, points: Array, closed: bool, text: str, fill: float = 0.0) -> None:
         """Draw a line or an outline through degrees east and north (n, 2)."""
-        known = map_symbols.LINES[style]
+        symbol = map_symbols.LINES[style]
         x, y = self.frame.place(points[:, 1], points[:, 0])
         at = _thinned(np.column_stack([x, y]))
         low, high = at.min(axis=0), at.max(axis=0)
@@ -65,12 +65,12 @@ class Content:
             return
         if fill:
             data = "M" + " ".join(f"{a:.2f},{b:.2f}" for a, b in at) + "Z"
-            self.lines.append(f'<path d="{data}" fill="{known.colour}" fill-opacity="{fill}"/>')
-        self.lines += map_symbols.line(known, at, closed, self.unit)
-        box = f'<rect x="-4" y="-1.4" width="8" height="2.8" fill="{known.colour}" fill-opacity="{fill}"/>'
+            self.lines.append(f'<path d="{data}" fill="{symbol.colour}" fill-opacity="{fill}"/>')
+        self.lines += map_symbols.line(symbol, at, closed, self.unit)
+        box = f'<rect x="-4" y="-1.4" width="8" height="2.8" fill="{symbol.colour}" fill-opacity="{fill}"/>'
         row = np.array([[-4.0, 0.0], [4.0, 0.0]])
         self.legend.setdefault(
-            text, (box if fill else "") + "".join(map_symbols.line(known, row, False, 1.0))
+            text, (box if fill else "") + "".join(map_symbols.line(symbol, row, False, 1.0))
         )
 
     def point(
@@ -144,18 +144,18 @@ BURNED = "#ff9d8a"
 
 def draw(briefing: Briefing, frame: MapFrame, unit: float) -> Content:
     """Draw context, fronts, stations and places, lowest first."""
-    made = Content(frame, unit)
+    content = Content(frame, unit)
     if base_map.reaches_outside(briefing.run, frame):
-        made.legend[OUTSIDE] = _outside_key()
+        content.legend[OUTSIDE] = _outside_key()
     for each in briefing.context:
-        _outlines(made, each)
-    _fronts(made, briefing)
+        _outlines(content, each)
+    _fronts(content, briefing)
     for each in briefing.context:
-        _symbols(made, each)
-    _places(made, briefing)
+        _symbols(content, each)
+    _places(content, briefing)
     for each in briefing.context:
-        line_labels.write(made, each)
-    return made
+        line_labels.write(content, each)
+    return content
 
 
 def _outside_key() -> str:
@@ -180,30 +180,30 @@ def regular(fronts: Sequence[Front], zone: str) -> tuple[list[Front], int]:
     return [], _HOURS[-1]
 
 
-def _fronts(made: Content, briefing: Briefing) -> None:
+def _fronts(content: Content, briefing: Briefing) -> None:
     earlier, hours = regular(briefing.fronts, briefing.zone)
     for front in earlier:
         for line in front.lines:
-            if _size(line) < _LEAST * made.frame.metres:
+            if _size(line) < _LEAST * content.frame.metres:
                 continue
-            made.line("Fire Edge Earlier", line, True, f"Simulated fire edge every {hours} h before")
+            content.line("Fire Edge Earlier", line, True, f"Simulated fire edge every {hours} h before")
     if briefing.observed:
         last = briefing.observed[-1]
         text = f"Observed perimeter, {times.text(last.time, briefing.zone)}"
         for polygon in last.polygons:
             for ring in polygon:
-                made.line("Observed Perimeter", np.asarray(ring, np.float64), True, text)
-    least = _LEAST * made.frame.metres
+                content.line("Observed Perimeter", np.asarray(ring, np.float64), True, text)
+    least = _LEAST * content.frame.metres
     kept = [line for line in briefing.fronts[-1].lines if _size(line) >= least]
     outer = np.sign(_area(max(kept, key=_size))) if kept else 1.0
     edges = [line for line in kept if np.sign(_area(line)) == outer]
     islands = [line for line in kept if np.sign(_area(line)) != outer]
     for line in islands:
-        made.line(
+        content.line(
             "Unburned Island", line, True, f"Unburned island, over {units.distance(least, briefing.units)}"
         )
     for line in edges:
-        made.line("Fire Edge", line, True, f"Simulated fire edge, {briefing.moments[-1]}")
+        content.line("Fire Edge", line, True, f"Simulated fire edge, {briefing.moments[-1]}")
 
 
 def _size(line: Array) -> float:
@@ -218,16 +218,16 @@ def _area(line: Array) -> float:
     return float(np.dot(x[:-1], y[1:]) - np.dot(x[1:], y[:-1]))
 
 
-def _outlines(made: Content, each: Context) -> None:
+def _outlines(content: Content, each: Context) -> None:
     for feature in each.features:
         style = context.line_style(each, feature)
         text = _ROUTE if context.NUMBER in feature.properties else context.style_title(each, style)
         for line in feature.lines:
             if len(line) > 1:
-                made.line(style, line, False, text)
+                content.line(style, line, False, text)
         for polygon in feature.polygons:
             for number, ring in enumerate(polygon):
-                made.line(style, ring, True, text, 0.0 if number else fill(style))
+                content.line(style, ring, True, text, 0.0 if number else fill(style))
 
 
 def fill(style: str) -> float:
@@ -235,19 +235,19 @@ def fill(style: str) -> float:
     return _ZONE_OPACITY if style in ("zones", "water", "values") else 0.0
 
 
-def _symbols(made: Content, each: Context) -> None:
+def _symbols(content: Content, each: Context) -> None:
     """Draw points, and labels of zones at the middle of their box."""
     for feature in each.features:
         name, label = context.point_symbol(each, feature), context.label(feature)
         for longitude, latitude in feature.points:
-            made.point(name, latitude, longitude, context.style_title(each, name), [label])
+            content.point(name, latitude, longitude, context.style_title(each, name), [label])
         if each.name == "zones" and label and feature.polygons:
             ring = feature.polygons[0][0]
             x, y = (
-                float(at) for at in made.frame.place(*(0.5 * (ring.min(axis=0) + ring.max(axis=0)))[::-1])
+                float(at) for at in content.frame.place(*(0.5 * (ring.min(axis=0) + ring.max(axis=0)))[::-1])
             )
-            if made.frame.contains(x, y):
-                made.label(x, y, 0.0, [label])
+            if content.frame.contains(x, y):
+                content.label(x, y, 0.0, [label])
 
 
 def _places(made: Content, briefing: Briefing) -> None:

@@ -66,10 +66,10 @@ class Margin:
 
     def _arrival(self, column: Column) -> None:
         """Write the colours of arrival times, a part of the legend."""
-        known = next((layer.legend for layer in self.briefing.layers if layer.name == "arrival"), None)
-        if known is None:
+        legend = next((layer.legend for layer in self.briefing.layers if layer.name == "arrival"), None)
+        if legend is None:
             return
-        column.text(known.title, 2.3)
+        column.text(legend.title, 2.3)
         colours, unit = base_map.colours(), column.unit
         step = column.width / len(colours)
         boxes = "".join(
@@ -80,11 +80,11 @@ class Margin:
         ticks = "".join(
             f'<text x="{at * column.width:.2f}" y="{5.3 * unit:.2f}" font-size="{1.9 * unit:.2f}" '
             f'text-anchor="{anchor}">{quote(text)}</text>'
-            for (at, text), anchor in zip(known.ticks, anchors, strict=False)
+            for (at, text), anchor in zip(legend.ticks, anchors, strict=False)
         )
         column.gap(0.5)
         column.drawing(boxes + ticks, 6.0 * unit)
-        for colour, text in known.notes:
+        for colour, text in legend.notes:
             mixed = base_map.mixed(colour)
             column.row(f'<rect x="-4" y="-1.4" width="8" height="2.8" fill="{mixed}"/>', text)
 

@@ -98,7 +98,7 @@ def fit(move: Move, frames: Array, count: int, frame: geo.LocalFrame) -> poses.P
     return poses.Poses(float(lens[0]), round(sensor, 6), tuple(map(_rounded, keys)))
 
 
-def _rounded(key: poses.Pose) -> poses.Pose:
+def _rounded(key: poses.PoseKey) -> poses.PoseKey:
     """Round a key to 0.1 mm and 1e-6 degrees."""
     return replace(
         key,

@@ -110,15 +110,15 @@ def _fitted(credits: Credits, width: int, height: int, share: int, most: float) 
     """Choose the text size, and wrap the lines at the left and at the right."""
     large = max(round(height / share), _LEAST)
     for size in range(large, _SMALLEST - 1, -1):
-        found = (size, *_lines(credits, width, size))
-        if max(len(found[1]), len(found[2])) <= _ROWS and _tall(found) <= most:
+        fitted = (size, *_lines(credits, width, size))
+        if max(len(fitted[1]), len(fitted[2])) <= _ROWS and _tall(fitted) <= most:
             break
-    if _tall(found) > most:
+    if _tall(fitted) > most:
         raise ValueError(
             f"the credits of the tiles do not fit into a picture of {width} x {height} pixels; "
             f"choose a larger resolution: {credits.text()}"
         )
-    return found
+    return fitted
 
 
 def _tall(found: _Fitted) -> int:

@@ -82,7 +82,7 @@ def ranked(numbers: NDArray[np.float32], cover: NDArray[np.float32]) -> NDArray[
                 planes[early] += same
                 planes[late] -= same
     held = [np.broadcast_to(each, cover.shape[1:]) for each in numbers]
-    found = np.zeros((*cover.shape[1:], 2 * RANKS), np.float32)
+    layers = np.zeros((*cover.shape[1:], 2 * RANKS), np.float32)
     for rank in range(min(RANKS, count)):
         for k in range(count - 1, rank, -1):  # equal coverages keep their order
             greater = planes[k] > planes[k - 1]
@@ -90,9 +90,9 @@ def ranked(numbers: NDArray[np.float32], cover: NDArray[np.float32]) -> NDArray[
                 before, after = values[k - 1], values[k]
                 values[k - 1] = np.where(greater, after, before)
                 values[k] = np.where(greater, before, after)
-        found[..., 2 * rank] = np.where(planes[rank] > 0.0, held[rank], np.float32(0.0))
-        found[..., 2 * rank + 1] = planes[rank]
-    return found
+        layers[..., 2 * rank] = np.where(planes[rank] > 0.0, held[rank], np.float32(0.0))
+        layers[..., 2 * rank + 1] = planes[rank]
+    return layers
 
 
 def _hashes(names: Sequence[str]) -> Words:
@@ -112,15 +112,15 @@ def _hash_equal(texts: NDArray[np.uint8]) -> Words:
     count, length = texts.shape
     padded = np.zeros((count, -(-length // 4) * 4), np.uint8)
     padded[:, :length] = texts
-    found = np.zeros(count, np.uint32)
+    hashed = np.zeros(count, np.uint32)
     for block, word in enumerate(padded.view("<u4").astype(np.uint32).T):
-        found ^= _rotated(word * _FIRST, 15) * _SECOND
+        hashed ^= _rotated(word * _FIRST, 15) * _SECOND
         if 4 * block + 4 <= length:
-            found = _rotated(found, 13) * np.uint32(5) + _ADDED
-    found ^= np.uint32(length)
+            hashed = _rotated(hashed, 13) * np.uint32(5) + _ADDED
+    hashed ^= np.uint32(length)
     for shift, factor in zip((16, 13), _LAST, strict=True):
-        found = (found ^ found >> np.uint32(shift)) * factor
-    return found ^ found >> np.uint32(16)
+        hashed = (hashed ^ hashed >> np.uint32(shift)) * factor
+    return hashed ^ hashed >> np.uint32(16)
 
 
 def _rotated(words: Words, bits: int) -> Words:

@@ -17,13 +17,13 @@ FIELD = "burned_fraction"
 
 def at(run: Run, time: float) -> NDArray[np.float32]:
     """Interpolate the burned fraction (fy, fx) at a model time (s): 0 before the run, constant after it."""
-    known = np.asarray(run.times)
-    after = int(np.searchsorted(known, time))
-    if time < known[0]:
+    run_times = np.asarray(run.times)
+    after = int(np.searchsorted(run_times, time))
+    if time < run_times[0]:
         return np.zeros((len(run.fuel_latitude), len(run.fuel_longitude)), np.float32)
-    if after == len(known) or known[after] == time:
-        return _frame(run, min(after, len(known) - 1))
-    part = np.float32((time - known[after - 1]) / (known[after] - known[after - 1]))
+    if after == len(run_times) or run_times[after] == time:
+        return _frame(run, min(after, len(run_times) - 1))
+    part = np.float32((time - run_times[after - 1]) / (run_times[after] - run_times[after - 1]))
     return (1 - part) * _frame(run, after - 1) + part * _frame(run, after)
 
 

@@ -101,15 +101,15 @@ def wind_at(run: Run, times: Array, within: tuple[slice, slice]) -> Array:
     times = np.asarray(times, np.float64)
     if not {"wind_east", "wind_north"} <= set(run.fields) or len(times) == 0:
         return np.zeros((len(times), 2))
-    known = np.asarray(run.times)
-    low, high = np.clip([times.min(), times.max()], known[0], known[-1])
+    run_times = np.asarray(run.times)
+    low, high = np.clip([times.min(), times.max()], run_times[0], run_times[-1])
     wanted = np.arange(low, high + _WIND_STEP, _WIND_STEP)
-    indices = np.unique(np.clip(np.searchsorted(known, wanted), 0, len(known) - 1))
+    indices = np.unique(np.clip(np.searchsorted(run_times, wanted), 0, len(run_times) - 1))
     rows, columns = within
     winds = np.array(
         [[float(np.nanmean(part[rows, columns])) for part in run.wind(int(index))] for index in indices]
     )
-    return np.stack([np.interp(times, known[indices], winds[:, axis]) for axis in (0, 1)], axis=-1)
+    return np.stack([np.interp(times, run_times[indices], winds[:, axis]) for axis in (0, 1)], axis=-1)
 
 
 def surroundings(run: Run, arrival: Array) -> tuple[slice, slice]:

@@ -162,7 +162,7 @@ def _load(folder: Path, places: Iterable[Path]) -> None:
 
 def _save(folder: Path, places: Iterable[Path]) -> None:
     """Save the hashes of a run's files in the first writable place."""
-    known = {
+    record = {
         path.relative_to(folder).as_posix(): [digest, *found]
         for (path, found), digest in _read.items()
         if path.is_relative_to(folder) and settled([found]) and _unchanged(path, found)
@@ -171,7 +171,7 @@ def _save(folder: Path, places: Iterable[Path]) -> None:
         part = place.with_name(f"{place.name}.{uuid.uuid4().hex}")
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
-            part.write_text(json.dumps(known), encoding="utf-8")
+            part.write_text(json.dumps(record), encoding="utf-8")
             part.replace(place)
         except OSError:
             with contextlib.suppress(OSError):

@@ -73,10 +73,10 @@ def canopy(run: Run) -> NDArray[np.float32]:
 
     Litter implies trees. If some of the run's litter has canopy fuel, litter without it is a clearing.
     """
-    known = run.canopy_fuel
+    given = run.canopy_fuel
     if not run.has(FIELD):
-        return known
+        return given
     litter = kinds(run.fuel_rows(FIELD, 0, len(run.fuel_latitude))) == LITTER
-    if not litter.any() or (known[litter] > _CANOPY).any():
-        return known
-    return np.where(litter, np.float32(IMPLIED), known)
+    if not litter.any() or (given[litter] > _CANOPY).any():
+        return given
+    return np.where(litter, np.float32(IMPLIED), given)

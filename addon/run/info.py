@@ -49,16 +49,16 @@ def source(folder: Path) -> dict[str, Any]:
     """
     path = folder / "run.toml"
     try:
-        found = tomllib.loads(path.read_text(encoding="utf-8-sig")).get("source", {})
+        entries = tomllib.loads(path.read_text(encoding="utf-8-sig")).get("source", {})
     except (OSError, ValueError, RecursionError):  # the core reports errors in run.toml
         return {}
-    for key, value in found.items():
+    for key, value in entries.items():
         listed = isinstance(value, list) and all(isinstance(each, str) for each in value)
         if key == "assumptions" and not listed:
             raise input_error(path, 'source.assumptions is not a list of texts; write ["..."], or remove it')
         if key == "model" and not isinstance(value, str):
             raise input_error(path, "source.model is not a text; write it in quotes, or remove it")
-    return found
+    return entries
 
 
 def _find(run: Run, zone: str) -> dict[str, Any]:

@@ -15,7 +15,7 @@ _TYPES = 6  # types of resources that are named for a station
 
 
 @dataclass(frozen=True)
-class Row:
+class StationRow:
     """A station of a list; None: unknown.
 
     Attributes
@@ -38,7 +38,7 @@ class Row:
 class Listing:
     """Rows by minutes, or by distance; and the number of omitted rows by reason."""
 
-    rows: list[Row]
+    rows: list[StationRow]
     left_out: dict[str, int] = field(default_factory=dict)
 
 
@@ -61,7 +61,9 @@ def survey(station_file: StationFile, query: Query) -> Listing:
         least = _shortest_times(search.find(station_file, query)) if station_file.resources else {}
         found = station_search.survey(station_file, query)
         rows = [
-            Row(each.station, each.distance_km, least.get(each.station.id), _exercise(each.station, own))
+            StationRow(
+                each.station, each.distance_km, least.get(each.station.id), _exercise(each.station, own)
+            )
             for each in found.matches
         ]
         return Listing(rows, found.left_out)
@@ -70,7 +72,7 @@ def survey(station_file: StationFile, query: Query) -> Listing:
     first = {each.station.id: each for each in reversed(answer.matches)}
     order = {each.station.id: None for each in answer.matches}
     rows = [
-        Row(first[n].station, first[n].distance_km, least.get(n), _exercise(first[n].station, own))
+        StationRow(first[n].station, first[n].distance_km, least.get(n), _exercise(first[n].station, own))
         for n in order
     ]
     return Listing(rows, answer.left_out)

@@ -24,19 +24,19 @@ from .station_file import StationFile
 
 
 @dataclass(frozen=True)
-class Answer:
+class SearchAnswer:
     """Result of a search, with the fire of a run, and of a forecast's members, if they are given."""
 
     station_file: StationFile
     query: Query
-    found: search.Found | station_search.Found
+    found: search.ResourceMatches | station_search.StationMatches
     run: Run | None = None
     ensemble: Ensemble | None = None
 
     @property
     def shortfall(self) -> str:
         """Reason why no set delivers enough; empty if there is a set, and for stations."""
-        return self.found.shortfall if isinstance(self.found, search.Found) else ""
+        return self.found.shortfall if isinstance(self.found, search.ResourceMatches) else ""
 
     @property
     def matches(self) -> Sequence[search.Match | station_search.StationMatch]:
@@ -58,7 +58,7 @@ class Answer:
             return None
         return MemberArrivals.at(self.ensemble, [each.station for each in self.matches], self.run)
 
-    def ahead(self, clearance_km: float) -> Answer:
+    def ahead(self, clearance_km: float) -> SearchAnswer:
         """Select the stations that the fire reaches or approaches, after the time of the query if it has one.
 
         They are sorted by this time. Stations on ground that burned before the run are omitted. Without a
@@ -81,7 +81,7 @@ class Answer:
         matches: Any = [result.matches[k] for k in order]
         return replace(self, found=replace(result, matches=matches, left_out=result.left_out | dict(reasons)))
 
-    def _ahead_of_members(self, forecast: MemberArrivals) -> Answer:
+    def _ahead_of_members(self, forecast: MemberArrivals) -> SearchAnswer:
         found, order = self.found, forecast.ahead(self.query.at)
         matches: Any = [found.matches[k] for k in order]
         far = len(found.matches) - len(matches)
@@ -101,7 +101,7 @@ class Answer:
 
     def assumptions(self) -> list[str]:
         """Return units and assumptions of the list."""
-        query, of_resources = self.query, isinstance(self.found, search.Found)
+        query, of_resources = self.query, isinstance(self.found, search.ResourceMatches)
         lines = []
         if query.near is not None:
             lines.append(f"distances: straight to {query.near[0]:.4f}, {query.near[1]:.4f}, km")
@@ -144,7 +144,7 @@ class Answer:
                 for k, each in enumerate(self.matches)
             ],
         }
-        if isinstance(self.found, search.Found):
+        if isinstance(self.found, search.ResourceMatches):
             answer |= {
                 "cost": self.found.cost,
                 "tonnes_per_hour": self.found.tonnes_per_hour,
@@ -158,7 +158,7 @@ class Answer:
         rows = [self._row(k, each) for k, each in enumerate(self.matches)]
         if rows:
             heads = ["km", "origin", "station"]
-            if isinstance(result, search.Found):
+            if isinstance(result, search.ResourceMatches):
                 heads = [
                     "min",
                     "km",
@@ -179,7 +179,7 @@ class Answer:
 
     def _sum(self) -> str:
         result = self.found
-        if not isinstance(result, search.Found):
+        if not isinstance(result, search.ResourceMatches):
             return count(len(self.matches), "station")
         text = count(len(result.matches), "resource")
         if result.candidates:

@@ -46,7 +46,7 @@ class Field:
 
 
 @dataclass(frozen=True)
-class Map:
+class MapPicture:
     """Static content of a map: extent, shaded ground (SIDE, SIDE, 3), and arrival times, s."""
 
     south: float
@@ -70,7 +70,7 @@ class Map:
         return int(np.argmin(far)) if far.size else None
 
 
-def prepare_map(field: Field | None, latitude: ArrayLike, longitude: ArrayLike) -> Map | None:
+def prepare_map(field: Field | None, latitude: ArrayLike, longitude: ArrayLike) -> MapPicture | None:
     """Prepare the map of a run's ground and of the stations around it; None without either."""
     y, x = np.asarray(latitude, np.float64), np.asarray(longitude, np.float64)
     if field is None and not y.size:
@@ -85,11 +85,11 @@ def prepare_map(field: Field | None, latitude: ArrayLike, longitude: ArrayLike) 
     arrival = np.full((SIDE, SIDE), np.nan)
     if field is not None:
         _draw_ground(field, (south, north, west, east), ground, arrival)
-    return Map(south, north, west, east, ground, arrival)
+    return MapPicture(south, north, west, east, ground, arrival)
 
 
 def draw(
-    plan: Map,
+    plan: MapPicture,
     time: float,
     latitude: ArrayLike,
     longitude: ArrayLike,

@@ -49,7 +49,7 @@ class Match:
 
 
 @dataclass(frozen=True)
-class Found:
+class ResourceMatches:
     """Result of a search.
 
     Attributes
@@ -85,7 +85,7 @@ def find(station_file: StationFile, query: Query) -> list[Match]:
     return survey(station_file, query).matches
 
 
-def survey(station_file: StationFile, query: Query) -> Found:
+def survey(station_file: StationFile, query: Query) -> ResourceMatches:
     """Find the resources that match a query, and count the omitted resources by reason.
 
     Without budget and delivery rate these are all resources that meet the other conditions. With a delivery
@@ -105,7 +105,7 @@ def survey(station_file: StationFile, query: Query) -> Found:
     chosen, shortfall = _set(rows, measured, query)
     is_set = query.tonnes_per_hour is not None or query.budget is not None
     candidates = len(rows) if is_set else 0
-    return Found(_matches(station_file, measured, chosen), left_out, candidates, shortfall)
+    return ResourceMatches(_matches(station_file, measured, chosen), left_out, candidates, shortfall)
 
 
 def _set(rows: NDArray[np.int64], measured: measures.Measures, query: Query) -> tuple[NDArray[np.int64], str]:

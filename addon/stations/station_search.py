@@ -21,22 +21,24 @@ class StationMatch:
 
 
 @dataclass(frozen=True)
-class Found:
+class StationMatches:
     """Stations by distance, then by number, and the number of omitted stations by reason."""
 
     matches: list[StationMatch]
     left_out: dict[str, int] = field(default_factory=dict)
 
 
-def survey(station_file: StationFile, query: Query) -> Found:
+def survey(station_file: StationFile, query: Query) -> StationMatches:
     """Find the stations within the distance of a query; its conditions on resources are ignored."""
     number = np.array([each.id for each in station_file.stations], np.int64)
     if query.near is None:
         order = np.argsort(number, kind="stable")
-        return Found([StationMatch(station_file.stations[row], None) for row in order])
+        return StationMatches([StationMatch(station_file.stations[row], None) for row in order])
     far = distance_km(*station_file.positions, query.near)
     kept = np.ones(len(far), np.bool_) if query.within_km is None else far <= query.within_km
     rows = np.flatnonzero(kept)
     rows = rows[np.lexsort((number[rows], far[rows]))]
     left_out = {} if kept.all() else {f"farther than {query.within_km:g} km": int(np.count_nonzero(~kept))}
-    return Found([StationMatch(station_file.stations[row], float(far[row])) for row in rows], left_out)
+    return StationMatches(
+        [StationMatch(station_file.stations[row], float(far[row])) for row in rows], left_out
+    )

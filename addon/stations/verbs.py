@@ -135,13 +135,15 @@ def find_resources(arguments: argparse.Namespace, fire: OpenFire) -> int:
     query = _query(arguments, _near(arguments, opened))
     if arguments.stations or not station_file.resources:
         _check_stations(arguments)
-        matches: search.Found | station_search.Found = station_search.survey(station_file, query)
+        matches: search.ResourceMatches | station_search.StationMatches = station_search.survey(
+            station_file, query
+        )
     else:
         matches = search.survey(station_file, query)
     members = None
     if arguments.ensemble is not None:
         members = place_arrivals.open_forecast(arguments.ensemble, "the list")
-    answer = page.Answer(station_file, query, matches, opened.run if opened else None, members)
+    answer = page.SearchAnswer(station_file, query, matches, opened.run if opened else None, members)
     if arguments.ahead:
         answer = answer.ahead(arguments.clearance)
     result(

@@ -62,7 +62,7 @@ class Material:
 
 
 @dataclass(frozen=True)
-class Summary:
+class TileSummary:
     """Numbers of a decoded tile.
 
     Attributes
@@ -110,7 +110,7 @@ class Decoded:
     triangle: NDArray[np.int32]
     material_index: NDArray[np.int32]
     materials: tuple[Material, ...]
-    about: Summary
+    about: TileSummary
 
     @property
     def credit(self) -> str:
@@ -199,7 +199,7 @@ def _vertex_colours(tile: tiles.Tile) -> NDArray[np.float32]:
     return colour
 
 
-def read_summary(path: Path) -> Summary | None:
+def read_summary(path: Path) -> TileSummary | None:
     """Read the numbers of a decoded tile; None if the file is missing or incomplete."""
     try:
         with path.open("rb") as stream:
@@ -255,9 +255,9 @@ def _array_bytes(about: dict[str, Any]) -> int:
     return sum(about[length] * width * np.dtype(kind).itemsize for kind, length, width in _ARRAYS.values())
 
 
-def _summary(about: dict[str, Any]) -> Summary:
+def _summary(about: dict[str, Any]) -> TileSummary:
     names = ("vertices", "triangles", "points", "spacing", "credit")
-    return Summary(*(about[name] for name in names))
+    return TileSummary(*(about[name] for name in names))
 
 
 def picture_names(path: Path) -> set[str]:

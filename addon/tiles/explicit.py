@@ -191,7 +191,7 @@ class _Walk:
         contents = _contents(node)
         tiling = scheme.read(node)
         if tiling is not None:
-            place = implicit.Place(kind, numbers, matrix, error, replaces, self.document, self.number)
+            place = implicit.TilePlace(kind, numbers, matrix, error, replaces, self.document, self.number)
             self.jobs[row] = [implicit.Subtree(tiling, place, contents, (0, 0, 0, 0))]
             self.placeholders.append(row)
             return

@@ -17,7 +17,7 @@ from .volumes import Volumes
 
 
 @dataclass(frozen=True)
-class Place:
+class TilePlace:
     """The tile that an implicit tiling divides.
 
     Attributes
@@ -44,7 +44,7 @@ class Subtree:
     """A subtree to read, at (level, x, y, z)."""
 
     scheme: Scheme
-    place: Place
+    place: TilePlace
     contents: list[Node]
     at: tuple[int, int, int, int]
 
@@ -148,7 +148,7 @@ def _append(
     tree.append(rows)
 
 
-def _scale(tree: Tree, place: Place) -> float:
+def _scale(tree: Tree, place: TilePlace) -> float:
     return float(volumes.largest_scale(tree.matrix_number(place.matrix)[None, :3, :3])[0])
 
 
@@ -165,7 +165,7 @@ def _coordinates(job: Subtree, cells: _Cells) -> NDArray[np.int64]:
     return at
 
 
-def _overrides(availability: Availability, cells: _Cells, place: Place) -> list[metadata.Overrides]:
+def _overrides(availability: Availability, cells: _Cells, place: TilePlace) -> list[metadata.Overrides]:
     """Read the metadata of each tile; empty without metadata."""
     node, tables = availability.node, availability.node.get("propertyTables")
     holder = node
@@ -187,7 +187,7 @@ def _overrides(availability: Availability, cells: _Cells, place: Place) -> list[
 
 
 def _volumes(
-    tree: Tree, scheme: Scheme, place: Place, at: NDArray[np.int64], overrides: list[metadata.Overrides]
+    tree: Tree, scheme: Scheme, place: TilePlace, at: NDArray[np.int64], overrides: list[metadata.Overrides]
 ) -> Volumes:
     """Compute volumes (n,) directly from the root's: repeated halving would accumulate error."""
     numbers = divide(place.kind, np.array(place.numbers), at, scheme.branches)
@@ -204,7 +204,7 @@ def _volumes(
     return Volumes.concatenate(parts).take(np.argsort(order))
 
 
-def _moved(tree: Tree, place: Place, kind: str, numbers: NDArray[np.float64]) -> Volumes:
+def _moved(tree: Tree, place: TilePlace, kind: str, numbers: NDArray[np.float64]) -> Volumes:
     found = volumes.from_numbers(kind, numbers)
     if kind == "region":
         return found

@@ -49,7 +49,7 @@ class Loaded:
     arrivals: fire_arrival.Arrivals | None = None
     ignition: tuple[float, float] | None = None
     head: Head | None = None
-    plan: picture.Map | None = None
+    plan: picture.MapPicture | None = None
     problem: str = ""
 
 

@@ -14,7 +14,7 @@ from ..errors import Error
 from ..progress import count
 from ..run import zone
 from ..stations import arrival_text, listing
-from ..stations.listing import Row
+from ..stations.listing import StationRow
 from ..stations.query import Query
 from ..stations.records import Station
 from . import station_data, station_filter
@@ -46,7 +46,7 @@ class ListState:
     wanted: Key | None = None
     query: Query | None = None
     loaded: Loaded | None = None
-    rows: list[Row] = field(default_factory=list)
+    rows: list[StationRow] = field(default_factory=list)
     place: dict[str, int] = field(default_factory=dict)
     status: str = NO_FILE
     stamp: int = 0

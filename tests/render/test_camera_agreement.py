@@ -19,7 +19,7 @@ from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.cameras.rigs.minimap import Minimap
 from firetwin.shot.cameras.rigs.mounted import Mounted
 from firetwin.shot.cameras.rigs.orbit import Orbit
-from firetwin.shot.cameras.rigs.poses import Pose, Poses
+from firetwin.shot.cameras.rigs.poses import PoseKey, Poses
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.cameras.rigs.tour import Stop, Tour
 from firetwin.shot.settings import Camera
@@ -38,8 +38,8 @@ RIGS = {
                        keys=(LookoutKey(0.0, 20.0, 15.0), LookoutKey(1.0, 70.0, 15.0, 3.0))),
     "chase": Chase(distance=2500.0, height=1200.0),
     "mounted": Mounted(follows="drone", focal_length=20.0),
-    "poses": Poses(keys=(Pose(0.0, 38.810, -120.57, 2600.0, 30.0, 25.0, 5.0),
-                         Pose(1.0, 38.815, -120.57, 2500.0, 40.0, 25.0, lens=40.0))),
+    "poses": Poses(keys=(PoseKey(0.0, 38.810, -120.57, 2600.0, 30.0, 25.0, 5.0),
+                         PoseKey(1.0, 38.815, -120.57, 2500.0, 40.0, 25.0, lens=40.0))),
     "tour": Tour(stops=(Stop("ignition", distance=2500.0, height=1200.0),
                         Stop("head", distance=2500.0, height=1200.0))),
     "globe": Globe(begin_latitude=38.82, begin_longitude=-120.57, begin_height=8000.0, latitude=38.84,

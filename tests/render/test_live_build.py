@@ -28,7 +28,7 @@ def _smoke(shot, stage, *_):
     """Smoke above the fire that becomes thicker, in place of a solved flow."""
     heights = shot.run.elevation.max() + np.linspace(-400.0, 1200.0, 17)
     across = np.linspace(-3000.0, 3000.0, 17)
-    grid = smoke_grid.Grid((across, across, heights), (across, across, heights))
+    grid = smoke_grid.SmokeGrid((across, across, heights), (across, across, heights))
     opacity = np.zeros((16, 16, 16), np.float32)
     opacity[4:12, 4:12, 4:12] = 0.1
     light = np.full((16, 16, 16, 3), 0.5, np.float32)

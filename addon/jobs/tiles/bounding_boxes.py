@@ -45,7 +45,7 @@ def in_process(
     from . import source as tile_source
 
     shot = ShotSource(**choice).shot()
-    found = []
+    boxes = []
     for number in range(len(shot.settings.tiles.sources)):
         progress(number, len(shot.settings.tiles.sources), "reading the tilesets")
         source = tile_source.open_tileset(shot, number, from_plain(access))
@@ -58,7 +58,7 @@ def in_process(
         placed = tree.volumes.take(some).moved(matrix[None], np.zeros(len(some), np.int64))
         wide = placed.half + placed.padding[:, None]
         corners = type(placed)(placed.centre, placed.axis, wide, placed.padding).corners()
-        found.append(
+        boxes.append(
             {
                 "name": source.name(source.root),
                 "tiles": tree.size,
@@ -66,4 +66,4 @@ def in_process(
                 "corners": np.round(corners, 2).ravel().tolist(),
             }
         )
-    return found
+    return boxes

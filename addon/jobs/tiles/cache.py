@@ -59,14 +59,14 @@ def list_tiles(cache: Path) -> list[CachedTiles]:
     place = cache / FOLDER
     files = _files(place)
     cuts = {path: _names(path, files) for path in place.glob("*.json") if _CUT.fullmatch(path.stem)}
-    found, seen = [], set[tuple[int, int]]()
+    listed, seen = [], set[tuple[int, int]]()
     used = {path: path.stat().st_mtime for path in cuts}
     for path in sorted(cuts, key=lambda each: -used[each]):
-        found.append(CachedTiles(path, _size(cuts[path], files, seen), used[path], cuts[path]))
+        listed.append(CachedTiles(path, _size(cuts[path], files, seen), used[path], cuts[path]))
     if rest := frozenset(files).difference(*cuts.values()):
         last = max(files[name].st_mtime for name in rest)
-        found.append(CachedTiles(place, _size(rest, files, seen), last, rest))
-    return found
+        listed.append(CachedTiles(place, _size(rest, files, seen), last, rest))
+    return listed
 
 
 def remove(tiles: CachedTiles) -> bool:
@@ -91,13 +91,13 @@ def remove(tiles: CachedTiles) -> bool:
 
 def _files(place: Path) -> dict[str, os.stat_result]:
     """List Firetwin's files in a folder of tiles."""
-    found = {}
+    stats = {}
     for path in place.rglob("*") if place.is_dir() else ():
         name = path.relative_to(place).as_posix()
         if _OURS.fullmatch(name) and not path.is_symlink():
             with contextlib.suppress(OSError):
-                found[name] = path.stat()
-    return found
+                stats[name] = path.stat()
+    return stats
 
 
 def _names(path: Path, files: Iterable[str]) -> frozenset[str]:

@@ -99,18 +99,18 @@ def make(
         tiles = _tile_address(source, shot)
         server = TileServer(source, tiles)
         messages, planned = _plan(shot, server)
-        made = [
+        areas = [
             _write_area(server, area, path.parent, share(progress, number, len(planned), "orthophoto"))
             for number, area in enumerate(planned)
         ]
     finally:
         source.close()
-    used = max(area.level for area in made)
+    used = max(area.level for area in areas)
     missing = tuple(
         f"{name}: {reason}" for key, (name, reason) in sorted(server.missing.items()) if key[0] <= used
     )
     credits = tuple(dict.fromkeys(notices.split(terrain.photo_credit)))
-    result = Drape(path.parent, tuple(made), credits, missing)
+    result = Drape(path.parent, tuple(areas), credits, missing)
     drape.write(result, path)
     credit = f"credit of the orthophoto, which pictures show: {'; '.join(result.credits)}"
     return [credit, *messages, *_missing_messages(missing)]
@@ -122,16 +122,18 @@ def _tile_address(source: Http, shot: Shot) -> TileAddress:
     if address.is_template(url):
         return TileAddress(url, highest=terrain.photo_level)
     name = source.name(source.root)
-    found = wmts.address_of(source.read(source.root, wmts.MAX_BYTES), name, url, terrain.photo_layer)
-    there = origin(found.url(found.lowest, 0, 0), name)
+    tile_address = wmts.address_of(source.read(source.root, wmts.MAX_BYTES), name, url, terrain.photo_layer)
+    there = origin(tile_address.url(tile_address.lowest, 0, 0), name)
     if there != source.home:
-        reason = f"has its tiles at {there}, another host; name them as terrain.photo_url: {found.template}"
+        reason = (
+            f"has its tiles at {there}, another host; name them as terrain.photo_url: {tile_address.template}"
+        )
         raise drape.key_error(shot.settings, source.redactor.text(f"{name} {reason}"))
-    if not overlap(found.bounds, shot.run.latitude, shot.run.longitude):
+    if not overlap(tile_address.bounds, shot.run.latitude, shot.run.longitude):
         here = format_bounds(extent(shot.run))
-        reason = f"covers {format_bounds(found.bounds)}, outside of the run, which covers {here}"
+        reason = f"covers {format_bounds(tile_address.bounds)}, outside of the run, which covers {here}"
         raise drape.key_error(shot.settings, f"{name} {reason}")
-    return found
+    return tile_address
 
 
 def _plan(shot: Shot, server: TileServer) -> tuple[list[str], list[PlannedArea]]:
@@ -141,16 +143,16 @@ def _plan(shot: Shot, server: TileServer) -> tuple[list[str], list[PlannedArea]]
     messages: list[str] = []
     while True:
         planned = drape_plan.plan(shot, tiles.bounds, (lowest, highest), side)
-        found = _probe_level(server, planned[-1].patch)
+        finest = _probe_level(server, planned[-1].patch)
         if server.side and server.side != side:
             side = server.side
             continue
         top = planned[-1].patch.level
-        if found < top and found >= lowest and server.side:
+        if finest < top and finest >= lowest and server.side:
             messages.append(
-                f"the orthophoto's server has no tiles of level {top} here; level {found} is used"
+                f"the orthophoto's server has no tiles of level {top} here; level {finest} is used"
             )
-            highest = found
+            highest = finest
             continue
         return messages + [_level_message(area, highest, side) for area in planned], planned
 

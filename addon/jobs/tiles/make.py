@@ -18,7 +18,7 @@ from ...shot.terrain import noise
 from ...shot.tiles import tile_terms
 from ...tiles import geoid, notices
 from ...tiles.make.lattice import Lattice, Surface
-from ...tiles.make.tileset import Maker, Summary
+from ...tiles.make.tileset import Maker, TilesetSummary
 
 Array = NDArray[np.float64]
 _FINEST = 4097  # points along an axis of an elevation model
@@ -59,7 +59,7 @@ def run(
     request: TilesRequest,
     progress: Progress = silent,
     tell: MessageCallback = no_message,
-) -> Summary:
+) -> TilesetSummary:
     """Write a tileset.
 
     Raises

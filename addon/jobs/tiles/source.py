@@ -19,7 +19,7 @@ from ...shot.shot import Shot
 from ...shot.tiles import tile_terms
 from ...shot.tiles.tile_terms import Use
 from ...tiles import decoded, notices
-from ...tiles.decoded import Summary
+from ...tiles.decoded import TileSummary
 from ...tiles.policies import Policy
 from ...tiles.sources import MissingError
 from . import decode
@@ -139,7 +139,7 @@ class TileSource:
         megabytes = self.settings.max_size * 1_000_000
         self.budget = Budget(self.settings.max_tiles, megabytes, self.settings.max_triangles)
         self.files: dict[int, str] = {}
-        self._decoded: dict[str, Summary | None] = {}
+        self._decoded: dict[str, TileSummary | None] = {}
 
     def prepare(self, progress: Progress) -> PreparedTiles:
         """Select, fetch and decode until all selected tiles can be shown."""
@@ -229,13 +229,13 @@ class TileSource:
             found |= {each: source.read(source.resolve(uri, each)) for each in wanted}
         return {each: self._store(content) for each, content in found.items()}
 
-    def _summary(self, content: DecodeTask) -> Summary | None:
+    def _summary(self, content: DecodeTask) -> TileSummary | None:
         """Read the numbers of a decoded content once; None if it was not decoded or is damaged."""
         if self._decoded.get(content.out) is None:
             self._decoded[content.out] = decoded.read_summary(Path(content.out))
         return self._decoded[content.out]
 
-    def _credits(self, shown: Iterable[Summary]) -> Iterator[str]:
+    def _credits(self, shown: Iterable[TileSummary]) -> Iterator[str]:
         """List the notices of tiles, then of documents."""
         texts = [about.credit for about in shown]
         texts += [document.copyright for document in self.loader.tree.documents]
@@ -247,8 +247,8 @@ class _WrongError(Exception):
     """A content that cannot be read, reported as a missing tile."""
 
 
-def _missing_resources(data: bytes, name: str, found: dict[str, bytes]) -> list[str]:
-    """List the external resources of a content that are not in `found`.
+def _missing_resources(data: bytes, name: str, resources: dict[str, bytes]) -> list[str]:
+    """List the external resources of a content that are not in `resources`.
 
     Raises
     ------
@@ -258,7 +258,7 @@ def _missing_resources(data: bytes, name: str, found: dict[str, bytes]) -> list[
     from firetwin_core import tiles
 
     try:
-        return tiles.list_missing_resources(data, name, found)
+        return tiles.list_missing_resources(data, name, resources)
     except (InputError, ValueError) as error:
         raise _WrongError(str(error)) from None
 

@@ -101,7 +101,7 @@ def height_of(properties: Mapping[str, Any]) -> float | None:
     return None
 
 
-def collect(known: Iterable[tuple[tuple[Rings, ...], float | None]]) -> Footprints:
+def collect(collected: Iterable[tuple[tuple[Rings, ...], float | None]]) -> Footprints:
     """Convert polygons and heights (None: unknown) of buildings to footprints.
 
     Raises
@@ -111,7 +111,7 @@ def collect(known: Iterable[tuple[tuple[Rings, ...], float | None]]) -> Footprin
     """
     outlines: list[Footprint] = []
     assumed = mended = refused = too_large = corners = 0
-    for number, (polygons, height) in enumerate(known):
+    for number, (polygons, height) in enumerate(collected):
         assumed += height is None
         for polygon in polygons:
             corners += (here := sum(map(len, polygon)))

@@ -256,7 +256,7 @@ def _update_camera(
         return before, f"edits of a camera of type {data.type.lower()} cannot be saved in a scene file"
     message = "lens shift cannot be saved in a scene file" if data.shift_x or data.shift_y else ""
     still = data.animation_data is None and not isinstance(before.rig, poses.Poses)
-    if changed & {"pose", "lens"} == {"lens"} and still and isinstance(before.rig, _lens.Lens):
+    if changed & {"pose", "lens"} == {"lens"} and still and isinstance(before.rig, _lens.LensRig):
         lens = {"focal_length": _shorten(data.lens), "sensor_width": _shorten(_sensor_width(data, size))}
         return replace(before, rig=replace(before.rig, **lens)), message
     path = evaluate_path(stage.scene, obj, frames, size)

@@ -48,9 +48,9 @@ def _show_to_camera_only(obj: bpy.types.Object) -> None:
     obj.lightgroup = nodes.FIRE
 
 
-def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: float) -> bpy.types.NodeTree:
+def _node_group(shot: Shot, stage: Stage, flights: firebrands.Flights, pixel: float) -> bpy.types.NodeTree:
     """Build geometry nodes: trajectory points -> a streak per live firebrand, at least `pixel` rad wide."""
-    count, each = found.place.shape[:2]
+    count, each = flights.place.shape[:2]
     tree, entry = nodes.geometry("Firetwin Firebrands")
     paths = tree.pick(entry, "Geometry")
     index = tree.output("GeometryNodeInputIndex") * float(each)
@@ -65,7 +65,7 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
 
     # Times count from the first frame: seconds since the start of the run would exceed float precision.
     time = (tree.output("GeometryNodeInputSceneTime", name="Frame") - 1.0) * shot.frames.step
-    after = (time - named("start")) / found.step
+    after = (time - named("start")) / flights.step
     part = (time - named("birth")) / named("life")
     low = tree.math("MINIMUM", tree.math("MAXIMUM", tree.math("FLOOR", after), 0.0), each - 2.0)
     position = tree.output("GeometryNodeInputPosition")
@@ -83,7 +83,7 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
     shutter = tree.input("Shutter", _SHUTTER, "Exposure time (s) of a streak", "Size")
     size = named("size") * larger
     width = tree.math("MAXIMUM", size, distance * (_PIXELS * pixel))
-    length = width + tree.vector("LENGTH", way, name="Value") * (shutter / found.step)
+    length = width + tree.vector("LENGTH", way, name="Value") * (shutter / flights.step)
     cover = (size * size / (width * length)).clamp()
     kelvin = part.ramp(0.0, 1.0, firebrand_material.FRESH, firebrand_material.COLD)
     turn = tree.output("FunctionNodeAlignRotationToVector", {"Vector": way}, axis="Z")

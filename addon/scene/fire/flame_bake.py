@@ -106,7 +106,7 @@ def build_material(shot: Shot, stage: Stage) -> bpy.types.Material:
 
     Colours and brightness are the same as in `flame_volume.visible`, at the exposure of the middle frame.
     """
-    made, tree = nodes.material("Firetwin Flame Volume", (1.0, 0.4, 0.05))
+    look, tree = nodes.material("Firetwin Flame Volume", (1.0, 0.4, 0.05))
     stops = float(exposure.at(shot, np.array([(shot.frames.count + 1) // 2]))[0])
     core = tree.input("Brightness", flame_volume.core_luminance(stops), "Luminance of the core", "Light")
     thick = tree.input("Density", 1.0, "Factor on how opaque flames are", "Density")
@@ -128,5 +128,5 @@ def build_material(shot: Shot, stage: Stage) -> bpy.types.Material:
     shader = nodes.switch(tree, nodes.THERMAL, shader, warm)
     kind = tree.add_shader(absorbed, tree.emission((0.0, 1.0, float(masks.FIRE)), dim))
     tree.volume(nodes.switch(tree, nodes.MASKS, shader, kind))
-    made.cycles.emission_sampling = "NONE"
-    return made
+    look.cycles.emission_sampling = "NONE"
+    return look

@@ -24,13 +24,13 @@ def build(shot: Shot, collection: bpy.types.Collection) -> list[bpy.types.Object
     placed = lamps.place_lamps(shot, nearest, lamps.glow_share(shot))
     strength = lamps.LIGHT * lamps.darkness(shot, placed.time)
     frames = 1.0 + (placed.time - first) / (shot.frames.step or 1.0)
-    made = []
+    objects = []
     for i, (position, radius) in enumerate(zip(placed.position, placed.radius, strict=True)):
         obj = _lamp(collection, f"Lamp {i:02d}", position, radius, frames, strength * placed.heat[:, i])
         # EEVEE would render six shadow maps for each
         obj.data.use_shadow = shot.settings.render.engine == "cycles"
-        made.append(obj)
-    return made
+        objects.append(obj)
+    return objects
 
 
 def _lamp(

@@ -47,7 +47,7 @@ class Smoke:
         (moments, rows, columns) part of the sunlight that is left, over the rectangle `low` to `high`, m.
     """
 
-    grid: smoke_grid.Grid
+    grid: smoke_grid.SmokeGrid
     times: NDArray[np.float64]
     slabs: list[list[smoke_grid.Slabs]]
     shadow: NDArray[np.float32]
@@ -89,7 +89,7 @@ def bake(shot: Shot, stage: Stage, progress: Progress, tell: MessageCallback) ->
     return Smoke(grid, shot.frames.times[np.array(frames) - 1], slabs, np.stack(shadow), low, high)
 
 
-def _shaded(grid: smoke_grid.Grid) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _shaded(grid: smoke_grid.SmokeGrid) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the corners (x, y) of the ground that the smoke can shade: as far aside as it is high."""
     tall = grid.cells[2][-1] - grid.cells[2][0]
     low, high = (np.array([grid.cells[axis][end] for axis in (0, 1)]) for end in (0, -1))
@@ -146,7 +146,7 @@ def build(stage: Stage, collection: bpy.types.Collection, smoke: Smoke) -> list[
 
 
 def _sheet(
-    grid: smoke_grid.Grid, axis: int, slab: int, opacity: NDArray[np.float32]
+    grid: smoke_grid.SmokeGrid, axis: int, slab: int, opacity: NDArray[np.float32]
 ) -> bpy.types.Mesh | None:
     """Create quads where a sheet is ever visible; None if nowhere. `sheet` is their place in the picture."""
     rows, columns = opacity.shape

@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Grid:
+class SmokeGrid:
     """Edges of slabs and of cells along each axis, m."""
 
     slabs: tuple[Array, Array, Array]
@@ -54,7 +54,7 @@ def source(shot: Shot) -> Source:
     return sources.select(shot.with_settings(replace(shot.settings, smoke=complete)))
 
 
-def make(source: Source, frames: list[int], target: Array) -> Grid | None:
+def make(source: Source, frames: list[int], target: Array) -> SmokeGrid | None:
     """Return the grid around the smoke of these frames; None without smoke."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for domain in source.domains:
@@ -81,7 +81,7 @@ def make(source: Source, frames: list[int], target: Array) -> Grid | None:
         return np.interp(np.linspace(0.0, share[-1], count + 1), share, x)
 
     slabs, cells = ([edges(axis, count[axis]) for axis in range(3)] for count in (SLABS, CELLS))
-    return Grid((slabs[0], slabs[1], slabs[2]), (cells[0], cells[1], cells[2]))
+    return SmokeGrid((slabs[0], slabs[1], slabs[2]), (cells[0], cells[1], cells[2]))
 
 
 def plane(axis: int) -> tuple[int, int]:
@@ -89,7 +89,7 @@ def plane(axis: int) -> tuple[int, int]:
     return (2, 1) if axis == 0 else (2, 0) if axis == 1 else (1, 0)
 
 
-def bake(grid: Grid, layers: list[volume.Bricks], light: volume.Illumination) -> list[Slabs]:
+def bake(grid: SmokeGrid, layers: list[volume.Bricks], light: volume.Illumination) -> list[Slabs]:
     """March through the slabs of each axis, a ray in each cell, and through each cell for its light."""
     seen = _march(grid, 2, grid.cells[2], layers, light)
     field = _filled(seen.transpose(2, 1, 0, 3))
@@ -102,7 +102,7 @@ def bake(grid: Grid, layers: list[volume.Bricks], light: volume.Illumination) ->
 
 
 def _march(
-    grid: Grid, axis: int, edges: Array, layers: list[volume.Bricks], light: volume.Illumination
+    grid: SmokeGrid, axis: int, edges: Array, layers: list[volume.Bricks], light: volume.Illumination
 ) -> NDArray[np.float32]:
     """Return light and opacity (slabs, rows, columns, 4) between edges along an axis."""
     rows, columns = (_middle(grid.cells[k]) for k in plane(axis))
@@ -141,7 +141,7 @@ def _filled(seen: NDArray[np.float32]) -> NDArray[np.float32]:
     return total[..., :3] / np.maximum(total[..., 3:], np.float32(1.0e-12))
 
 
-def on_sheets(grid: Grid, axis: int, field: NDArray[np.float32]) -> NDArray[np.float32]:
+def on_sheets(grid: SmokeGrid, axis: int, field: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return the light (slabs, rows, columns, 3) of the cells (x, y, z, 3) on the sheets of an axis.
 
     Light depends on the place alone: sheets that cross are equally bright there, so their order is not seen.

@@ -48,7 +48,7 @@ class _Smoke:
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Smoke"."""
-    made, tree = nodes.material("Firetwin Smoke")
+    look, tree = nodes.material("Firetwin Smoke")
     young = material.mix_colours(_PALE, _FRESH, shot.fire.smoke.dark)
     fresh = tree.input("Fresh Colour", young, "Albedo of fresh smoke: dark with soot, or pale", "Colour")
     old = tree.input(
@@ -68,9 +68,9 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     # A mix by 0 or 1 evaluates one side only, and more than half of all steps are outside of smoke.
     clear = tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0})
     tree.volume(tree.mix_shader(density > 0.5 * flow_frames.min_extinction(shot.scale), clear, shader))
-    made.cycles.volume_sampling = "DISTANCE"
-    made.cycles.emission_sampling = "NONE"
-    return made
+    look.cycles.volume_sampling = "DISTANCE"
+    look.cycles.emission_sampling = "NONE"
+    return look
 
 
 def drawn_albedo(white: float) -> float:

@@ -9,7 +9,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import flame_field
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME
-from .shading_inputs import Place
+from .shading_inputs import GroundInputs
 
 EMBER_TIME = 3600.0  # s, decay time of embers of timber, to 1/e
 _BENT = 1.75
@@ -47,7 +47,7 @@ _GLOWING = 0.05
 _SPARSE = 0.25  # coverage of coals between patches, relative to within them (by eye)
 
 
-def scar_colour(tree: nodes.Tree, place: Place, *, logs: bool = False) -> nodes.Value:
+def scar_colour(tree: nodes.Tree, place: GroundInputs, *, logs: bool = False) -> nodes.Value:
     """Return the colour of the scar by intensity, fuel and age: char, grey ash, white ash, scorched crowns.
 
     Char has a reflectance of 0.01 to 0.05. Ash is pale where much fuel burned, and more so after some hours.
@@ -81,18 +81,18 @@ def scar_colour(tree: nodes.Tree, place: Place, *, logs: bool = False) -> nodes.
     return tree.mix_colour(brown * kept, char, scorched)
 
 
-def surviving_crowns(place: Place) -> nodes.Value:
+def surviving_crowns(place: GroundInputs) -> nodes.Value:
     """Return the fraction 0..1 of crowns that stay green over a surface fire."""
     return _uneven_heat(place).smoothstep(*np.log(_GREEN)) * place.canopy.smoothstep(0.1, 0.6)
 
 
-def _uneven_heat(place: Place) -> nodes.Value:
+def _uneven_heat(place: GroundInputs) -> nodes.Value:
     """Return ln(kW/m) with patches of stands and groups of trees: winds, slopes and fuel vary (by eye)."""
     patches = (place.grain.noise(540.0, 4.0, 0.6) - 0.5) * 2.4
     return place.heat + patches + (place.grain.noise(70.0, 2.0, 0.6) - 0.5) * 1.2
 
 
-def _log_ash(tree: nodes.Tree, place: Place) -> nodes.Value:
+def _log_ash(tree: nodes.Tree, place: GroundInputs) -> nodes.Value:
     """Return white streaks 0..1 of logs that burned out, in cells of 11 m, seen close by only."""
     x, y, _ = tree.separate(place.position)
     cells = tree.node("ShaderNodeTexVoronoi", {"Vector": tree.combine(x, y, 0.0), "Scale": 1.0 / 11.0})
@@ -108,7 +108,9 @@ def _log_ash(tree: nodes.Tree, place: Place) -> nodes.Value:
     return shape * (chance < _LOGS) * place.pixel.ramp(0.3, 2.0, 1.0, 0.0)
 
 
-def _burned_grass_colour(tree: nodes.Tree, place: Place, tone: nodes.Value, ash: nodes.Value) -> nodes.Value:
+def _burned_grass_colour(
+    tree: nodes.Tree, place: GroundInputs, tone: nodes.Value, ash: nodes.Value
+) -> nodes.Value:
     """Return the colour of burned grass: thin black, soil where ash blew off, stubs and tufts of straw."""
     broad = place.grain.noise(420.0 * place.scale, 3.0, 0.6)
     worn = place.age.smoothstep(120.0, 7200.0)
@@ -122,7 +124,7 @@ def _burned_grass_colour(tree: nodes.Tree, place: Place, tone: nodes.Value, ash:
     return tree.mix_colour(tufts * 0.5, char, (0.120, 0.100, 0.066))
 
 
-def _matted_ash(tree: nodes.Tree, place: Place, char: nodes.Value) -> nodes.Value:
+def _matted_ash(tree: nodes.Tree, place: GroundInputs, char: nodes.Value) -> nodes.Value:
     """Return the colour of burned grass with mats of black residue, and thin streaks of white ash between."""
     mats = place.grain.noise(2.2, 4.0, 0.72)
     tone = mats.ramp(0.3, 0.7, 0.45, 1.15)
@@ -132,7 +134,7 @@ def _matted_ash(tree: nodes.Tree, place: Place, char: nodes.Value) -> nodes.Valu
     return tree.mix_colour(line * place.pixel.ramp(0.3, 2.0, 0.28, 0.08), char, _WISP_ASH)
 
 
-def front_coverage(tree: nodes.Tree, stage: Stage, place: Place) -> tuple[nodes.Value, nodes.Value]:
+def front_coverage(tree: nodes.Tree, stage: Stage, place: GroundInputs) -> tuple[nodes.Value, nodes.Value]:
     """Return the coverage 0..1 of the flaming front, and of embers behind it, on ground with burned fuel.
 
     Within the field of flames the ground has only the light below them, and its embers are single coals.
@@ -157,13 +159,13 @@ def front_coverage(tree: nodes.Tree, stage: Stage, place: Place) -> tuple[nodes.
     return body * tongues * beyond, embers * fading
 
 
-def glowing_fraction(tree: nodes.Tree, place: Place) -> nodes.Value:
+def glowing_fraction(tree: nodes.Tree, place: GroundInputs) -> nodes.Value:
     """Return the fraction 0..1 of the area of embers that glows: single coals close by, patches from afar."""
     return place.pixel.ramp(*_COALS, 1.0, _GLOWING)
 
 
 def fire_emission(
-    tree: nodes.Tree, shot: Shot, stage: Stage, place: Place, fuel: nodes.Value
+    tree: nodes.Tree, shot: Shot, stage: Stage, place: GroundInputs, fuel: nodes.Value
 ) -> tuple[nodes.Value, nodes.Value]:
     """Return shader and radiance of flames and embers to the camera, scaled by the burned `fuel` (0..1)."""
     flaming, embers = front_coverage(tree, stage, place)

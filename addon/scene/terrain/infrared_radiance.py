@@ -7,7 +7,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import infrared, temperature
 from . import burn_scar
-from .shading_inputs import Place
+from .shading_inputs import GroundInputs
 
 _UNEVEN = (90.0, 11.0), (0.45, 1.55)
 """Sizes of patches of heat in burned ground, m, and factors on its temperature excess: fuel and soil vary
@@ -19,7 +19,7 @@ def radiance(
     tree: nodes.Tree,
     shot: Shot,
     stage: Stage,
-    place: Place,
+    place: GroundInputs,
     rock: nodes.Value,
     lake: nodes.Value,
     normal: nodes.Value,
@@ -39,7 +39,7 @@ def radiance(
     return infrared.radiance_at_camera(tree, shot, stage, own)
 
 
-def bare_fraction(tree: nodes.Tree, place: Place, rock: nodes.Value) -> nodes.Value:
+def bare_fraction(tree: nodes.Tree, place: GroundInputs, rock: nodes.Value) -> nodes.Value:
     """Return the fraction 0..1 of the ground without living crowns."""
     bare = tree.math("MAXIMUM", rock, place.canopy.ramp(0.0, 1.2, 1.0, 0.1))
     return tree.math("MAXIMUM", bare, place.burned)
@@ -49,7 +49,7 @@ def surface_temperature(
     tree: nodes.Tree,
     shot: Shot,
     stage: Stage,
-    place: Place,
+    place: GroundInputs,
     rock: nodes.Value,
     lake: nodes.Value,
     normal: nodes.Value,
@@ -62,7 +62,7 @@ def surface_temperature(
     return tree.mix(lake, kelvin, temperature.WATER)
 
 
-def _heat_variation(tree: nodes.Tree, place: Place) -> nodes.Value:
+def _heat_variation(tree: nodes.Tree, place: GroundInputs) -> nodes.Value:
     """Return the factor on the temperature excess of burned ground, which differs from place to place."""
     large, small = (place.grain.noise(size * place.scale, 3.0, 0.6) for size in _UNEVEN[0])
     return (0.6 * large + 0.4 * small).ramp(0.3, 0.7, *_UNEVEN[1])

@@ -28,7 +28,7 @@ from . import (
     shading_inputs,
     vegetation_cover,
 )
-from .shading_inputs import Place
+from .shading_inputs import GroundInputs
 
 _FAR, _ON_ROCK = 1.5, 2.0  # pixels, minimum wavelength of noise where trees are part of the ground
 
@@ -150,7 +150,7 @@ def _bump_normal(tree: nodes.Tree, height: nodes.Value, strength: float = 0.9) -
     return tree.output("ShaderNodeBump", {"Strength": strength, "Distance": 1.0, "Height": height})
 
 
-def _soil_shader(tree: nodes.Tree, here: Place, biome: ShotBiome) -> nodes.Value:
+def _soil_shader(tree: nodes.Tree, here: GroundInputs, biome: ShotBiome) -> nodes.Value:
     """Shade ground without rock: a vegetation texture afar, and the floor below nearby instanced trees."""
     shaders = []
     for grown, there in (
@@ -167,13 +167,13 @@ def _soil_shader(tree: nodes.Tree, here: Place, biome: ShotBiome) -> nodes.Value
     return tree.mix_shader(here.near, *shaders)
 
 
-def _grain_floor(tree: nodes.Tree, here: Place, colour: nodes.Value) -> nodes.Value:
+def _grain_floor(tree: nodes.Tree, here: GroundInputs, colour: nodes.Value) -> nodes.Value:
     """Return the colour of the floor with needles, soil and shadows, with the same mean."""
     grain = tree.mix_colour(here.duff.ramp(-0.5, 0.5), (0.22, 0.20, 0.18), (1.78, 1.80, 1.82))
     return tree.mix_colour(1.0, colour, grain, "MULTIPLY")
 
 
-def _rock_shader(tree: nodes.Tree, here: Place, biome: ShotBiome) -> nodes.Value:
+def _rock_shader(tree: nodes.Tree, here: GroundInputs, biome: ShotBiome) -> nodes.Value:
     colour, height = rock_outcrops.look(tree, here)
     if biome.biome.open_land is not None:
         colour, height = _weather_rock(tree, here, biome, colour, height)
@@ -185,7 +185,7 @@ def _rock_shader(tree: nodes.Tree, here: Place, biome: ShotBiome) -> nodes.Value
 
 
 def _weather_rock(
-    tree: nodes.Tree, here: Place, biome: ShotBiome, colour: nodes.Value, height: nodes.Value
+    tree: nodes.Tree, here: GroundInputs, biome: ShotBiome, colour: nodes.Value, height: nodes.Value
 ) -> tuple[nodes.Value, nodes.Value]:
     """Shade rock of biomes outside of the Sierra, replaced by soil on gentle slopes."""
     colour = tree.mix_colour(1.0, colour, biome.biome.rock, "MULTIPLY")
@@ -212,7 +212,7 @@ def _simple_ground(tree: nodes.Tree, ground_fields: fields.Fields, biome: ShotBi
 
 def _apply_orthophoto(
     tree: nodes.Tree,
-    here: Place,
+    here: GroundInputs,
     picture: orthophoto.OrthophotoImage,
     image: bpy.types.Image,
     ground: nodes.Value,
@@ -238,7 +238,7 @@ def photo_reflectance(tree: nodes.Tree, colour: nodes.Value) -> nodes.Value:
 
 def _apply_land_use(
     tree: nodes.Tree,
-    here: Place,
+    here: GroundInputs,
     layer: str,
     picture: orthophoto.OrthophotoImage,
     image: bpy.types.Image,
@@ -259,7 +259,7 @@ def _apply_land_use(
 
 
 def _picture_alpha(
-    tree: nodes.Tree, here: Place, picture: orthophoto.OrthophotoImage, image: bpy.types.Image
+    tree: nodes.Tree, here: GroundInputs, picture: orthophoto.OrthophotoImage, image: bpy.types.Image
 ) -> nodes.Value:
     """Return the opacity of a picture draped on the ground, 0 outside of it."""
     scale = 1.0 / (picture.high - picture.low)
@@ -269,7 +269,7 @@ def _picture_alpha(
 
 
 def _picture_colour(
-    tree: nodes.Tree, here: Place, picture: orthophoto.OrthophotoImage, image: bpy.types.Image
+    tree: nodes.Tree, here: GroundInputs, picture: orthophoto.OrthophotoImage, image: bpy.types.Image
 ) -> nodes.Value:
     """Return the colour of a picture draped on the ground.
 
@@ -281,7 +281,7 @@ def _picture_colour(
     return tree.output("ShaderNodeTexImage", {"Vector": at}, "Color", image=image, extension="EXTEND")
 
 
-def _water_shader(tree: nodes.Tree, here: Place) -> nodes.Value:
+def _water_shader(tree: nodes.Tree, here: GroundInputs) -> nodes.Value:
     """Shade dark water that reflects the sky by Fresnel's law, with waves from the wind.
 
     Roughness represents waves below the pixel size (Cox and Munk 1954: distribution of slopes).

@@ -14,7 +14,7 @@ from ...blender import nodes, owned
 from ..band_limited_noise import Grain
 from ..forest import field_lines, patterns
 from ..forest.biomes import OpenLand, ShotBiome
-from .shading_inputs import Place
+from .shading_inputs import GroundInputs
 
 _MARK = "firetwin_biome"
 _RUT, _TRACK = 0.45, 2.6  # m: width of a wheel's rut, and of a track with grass between (by eye)
@@ -35,7 +35,7 @@ class Spot:
     free: nodes.Value
 
 
-def look(tree: nodes.Tree, place: Place, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
+def look(tree: nodes.Tree, place: GroundInputs, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
     """Return colour and height (m), from a shared node group: Blender is slow with many nodes in a tree."""
     inputs = {
         "Pixel": place.pixel,
@@ -66,11 +66,11 @@ def _node_group(tree: nodes.Tree, here: ShotBiome) -> bpy.types.NodeTree:
 
 def _group_inputs(tree: nodes.Tree) -> Spot:
     """Add the inputs of the group at a point."""
-    pixel = tree.input("Pixel", 1.0, "Size of a pixel, m", "Place")
-    least = tree.input("Least", 1.0, "Pixels of the finest noise", "Place")
-    shrub = tree.input("Shrub", 0.0, "Fraction of the land under bushes", "Place", most=1.0)
-    hollow = tree.input("Hollow", 0.0, "-1: a crest, 1: a hollow", "Place", least=None)
-    free = tree.input("Free", 1.0, "1: fields and tracks are procedural", "Place", most=1.0)
+    pixel = tree.input("Pixel", 1.0, "Size of a pixel, m", "GroundInputs")
+    least = tree.input("Least", 1.0, "Pixels of the finest noise", "GroundInputs")
+    shrub = tree.input("Shrub", 0.0, "Fraction of the land under bushes", "GroundInputs", most=1.0)
+    hollow = tree.input("Hollow", 0.0, "-1: a crest, 1: a hollow", "GroundInputs", least=None)
+    free = tree.input("Free", 1.0, "1: fields and tracks are procedural", "GroundInputs", most=1.0)
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     return Spot(Grain(tree, position, pixel * least), position, distance, pixel, shrub, hollow, free)
@@ -101,7 +101,7 @@ def _look(tree: nodes.Tree, place: Spot, here: ShotBiome) -> tuple[nodes.Value, 
     return colour, height
 
 
-def bare_colour(tree: nodes.Tree, place: Place, here: ShotBiome) -> nodes.Value:
+def bare_colour(tree: nodes.Tree, place: GroundInputs, here: ShotBiome) -> nodes.Value:
     """Return the colour of ground without fuel: soil, dry beds and stones."""
     land = here.biome.open_land
     assert land is not None

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from ...blender import nodes
 from .. import granite
-from .shading_inputs import Place
+from .shading_inputs import GroundInputs
 
 
-def look(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
+def look(tree: nodes.Tree, place: GroundInputs) -> tuple[nodes.Value, nodes.Value]:
     """Return colour and height (m)."""
     noise = place.grain.noise
     stone, height = granite.face(tree, place.position, place.pixel)

@@ -28,7 +28,7 @@ _TIMBER = 120.0  # s, residence time of flames over a spot of timber
 
 
 @dataclass
-class Place:
+class GroundInputs:
     """A point of the ground; its noise is band-limited by `grain`."""
 
     grain: Grain
@@ -57,7 +57,7 @@ class Place:
     free: nodes.Value  # 1 if no map has data there, so fields and tracks may be procedural
     duff: nodes.Value  # -1..1, texture of soil, needles and ash; 0 where pixels are larger
 
-    def coarser(self, least: float) -> Place:
+    def coarser(self, least: float) -> GroundInputs:
         """Return the same point with noise of at least `least` pixels, for other branches of the shader.
 
         Cycles evaluates nodes that branches share before it knows which branch it needs. Noise with different
@@ -66,7 +66,7 @@ class Place:
         return replace(self, grain=self.grain.coarser(least))
 
 
-def gather(tree: nodes.Tree, ground_fields: fields.Fields, shot: Shot, *, whole: bool) -> Place:
+def gather(tree: nodes.Tree, ground_fields: fields.Fields, shot: Shot, *, whole: bool) -> GroundInputs:
     """Gather shading inputs at a point, with noise in all octaves (`whole`) or band-limited to the picture.
 
     Both in the same material cost no more than one of them, if they are in different branches.
@@ -90,7 +90,7 @@ def gather(tree: nodes.Tree, ground_fields: fields.Fields, shot: Shot, *, whole:
     edge = edge - _unburned_patches(grain, ground_fields["heat"], woody)
     if mixed:
         edge = edge - _unburned_islands(grain, speed, woody, shot.front_scale)
-    return Place(
+    return GroundInputs(
         grain,
         position,
         slope,
@@ -133,7 +133,7 @@ def _unburned_islands(grain: Grain, speed: nodes.Value, woody: nodes.Value, scal
     return (tufts + weak).smoothstep(0.66, 0.74) * (1.0 - woody).smoothstep(0.0, 0.4)
 
 
-def bare_rock(tree: nodes.Tree, place: Place, outcrops: float = 1.0) -> nodes.Value:
+def bare_rock(tree: nodes.Tree, place: GroundInputs, outcrops: float = 1.0) -> nodes.Value:
     """Return bare rock 0..1: no vegetation, cliffs, and outcrops, more frequent at high elevation."""
     ragged = place.grain.noise(260.0, 6.0, 0.66)
     bare = (place.bare + (ragged - 0.5) * 1.7).smoothstep(0.42, 0.58) * (place.bare > 0.02)

@@ -10,7 +10,7 @@ from ...blender import nodes
 from ..band_limited_noise import Grain
 from ..forest.biomes import Colour, ShotBiome
 from . import open_land as lands
-from .shading_inputs import Place
+from .shading_inputs import GroundInputs
 
 _CROWNS_SEEN = (0.75, 2.3)  # widths of a crown in a pixel at which crowns have full contrast, and least
 _MEADOW = ((0.070, 0.070, 0.040), (0.110, 0.092, 0.052))  # high and low meadows in the dry season
@@ -32,7 +32,7 @@ class Crowns:
     alone: nodes.Value  # 1 for a crown amid brush or on rock
 
 
-def crowns(tree: nodes.Tree, place: Place, size: float, groups: nodes.Value) -> Crowns:
+def crowns(tree: nodes.Tree, place: GroundInputs, size: float, groups: nodes.Value) -> Crowns:
     """Return crowns in cells of `size` m; from afar they are filtered to their mean."""
     sharp = (place.pixel / size).ramp(*_CROWNS_SEEN, 1.0, 0.2)
     deep = tree.cells(place.position, size).smoothstep(0.34, 0.70)
@@ -41,7 +41,7 @@ def crowns(tree: nodes.Tree, place: Place, size: float, groups: nodes.Value) -> 
     return Crowns(tree.mix(sharp, 0.52, deep), tree.mix(sharp, 0.5, tint), tree.mix(sharp, 0.25, alone))
 
 
-def distant_canopy(tree: nodes.Tree, place: Place, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
+def distant_canopy(tree: nodes.Tree, place: GroundInputs, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
     """Return colour and height (m) where trees are part of the ground."""
     grain = place.grain
     fine, patch, groups = _fine_noise(grain), _patch_noise(grain), _group_noise(grain)
@@ -68,7 +68,7 @@ def distant_canopy(tree: nodes.Tree, place: Place, here: ShotBiome) -> tuple[nod
     return tree.mix_colour(cover, open_ground, canopy), height
 
 
-def trees_on_rock(tree: nodes.Tree, place: Place, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
+def trees_on_rock(tree: nodes.Tree, place: GroundInputs, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
     """Return the colour of lone trees on rock, and their coverage (0..1).
 
     They use separate cells, which are therefore evaluated on rock only.
@@ -80,7 +80,7 @@ def trees_on_rock(tree: nodes.Tree, place: Place, here: ShotBiome) -> tuple[node
     return tree.mix_colour(crown.dark, lit, biome.between), where
 
 
-def near_ground(tree: nodes.Tree, place: Place, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
+def near_ground(tree: nodes.Tree, place: GroundInputs, here: ShotBiome) -> tuple[nodes.Value, nodes.Value]:
     """Return colour and height (m) of the ground where trees and brush are instanced."""
     fine, patch = _fine_noise(place.grain), _patch_noise(place.grain)
     height: nodes.Value | None = None
@@ -140,7 +140,12 @@ def _canopy_colour(
 
 
 def _open_ground_colour(
-    tree: nodes.Tree, place: Place, fine: nodes.Value, patch: nodes.Value, tint: nodes.Value, here: ShotBiome
+    tree: nodes.Tree,
+    place: GroundInputs,
+    fine: nodes.Value,
+    patch: nodes.Value,
+    tint: nodes.Value,
+    here: ShotBiome,
 ) -> nodes.Value:
     """Return the colour of the Sierra's meadows, soil and brush."""
     dry = place.elevation.ramp(500.0, 1500.0, 1.0, 0.0)

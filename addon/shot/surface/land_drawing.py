@@ -32,7 +32,7 @@ _RUTS = 4.5  # m, width from which a track has no grass in its middle
 _FINE = 0.8  # m, largest pixel that shows ruts
 
 
-class Picture:
+class LandPicture:
     """A picture that is being drawn.
 
     Attributes
@@ -89,14 +89,14 @@ class Picture:
         return (line - self.low) / self.pixel
 
 
-def draw_area(picture: Picture, rings: Sequence[Array], colour: Colour, strength: float) -> None:
+def draw_area(picture: LandPicture, rings: Sequence[Array], colour: Colour, strength: float) -> None:
     """Draw a polygon in one colour."""
     if (found := picture.filled(rings)) is not None:
         picture.fill(found, [np.asarray(part) for part in colour], strength)
 
 
 def draw_field(
-    picture: Picture, rings: Sequence[Array], colour: Colour, strength: float, pattern: str
+    picture: LandPicture, rings: Sequence[Array], colour: Colour, strength: float, pattern: str
 ) -> None:
     """Draw a field: rows along its longest side, tramlines in crops, headlands, and a strip of grass."""
     covered = picture.filled(rings)
@@ -120,7 +120,7 @@ def draw_field(
                 picture.blend((near[0], near[1] * _within(covered, near[0], near[1].shape)), over, part)
 
 
-def draw_track(picture: Picture, line: Array, width: float, colour: Colour) -> None:
+def draw_track(picture: LandPicture, line: Array, width: float, colour: Colour) -> None:
     """Draw a track: two ruts and grass between, if it is narrow and pixels are fine enough."""
     if width > _RUTS or width < 3.0 * _TYRE or float(np.mean(picture.pixel)) > _FINE:
         picture.blend(picture.stroked(line, width), colour)
@@ -131,13 +131,13 @@ def draw_track(picture: Picture, line: Array, width: float, colour: Colour) -> N
         picture.blend(picture.stroked(rut, 1.4 * _TYRE), colour)
 
 
-def draw_road(picture: Picture, line: Array, width: float, colour: Colour) -> None:
+def draw_road(picture: LandPicture, line: Array, width: float, colour: Colour) -> None:
     """Draw a sealed road with shoulders of gravel."""
     picture.blend(picture.stroked(line, width + 2.0 * _SHOULDER), _GRAVEL, 0.85)
     picture.blend(picture.stroked(line, width), colour)
 
 
-def draw_bank(picture: Picture, line: Array, width: float) -> None:
+def draw_bank(picture: LandPicture, line: Array, width: float) -> None:
     """Draw the bank of a water course `width` m wide, or along a shore: wet plants and bare mud."""
     picture.blend(picture.stroked(line, width + 2.0 * _BANK), _REEDS, 0.6)
     picture.blend(picture.stroked(line, width + 2.0 * _SHORE), _MUD, 0.75)
@@ -162,7 +162,7 @@ def _within(
     return inner
 
 
-def _across(picture: Picture, window: tuple[slice, slice], ring: Array) -> NDArray[np.float32]:
+def _across(picture: LandPicture, window: tuple[slice, slice], ring: Array) -> NDArray[np.float32]:
     """Distance (m) of a window's pixels across the rows, which run along the longest side of the ring."""
     sides = np.roll(ring, -1, axis=0) - ring
     side = sides[np.argmax(np.hypot(*sides.T))]
@@ -173,7 +173,7 @@ def _across(picture: Picture, window: tuple[slice, slice], ring: Array) -> NDArr
     return (north * side[0]).astype(np.float32)[:, None] - (east * side[1]).astype(np.float32)
 
 
-def _tramlines(across: NDArray[np.float32], picture: Picture) -> NDArray[np.float32]:
+def _tramlines(across: NDArray[np.float32], picture: LandPicture) -> NDArray[np.float32]:
     """Coverage of a sprayer's wheel tracks."""
     wide = np.float32(max(0.5 * _TYRE, float(0.5 / picture.metre)))
     off = np.abs(np.abs(np.mod(across + 0.5 * _TRAMLINES, _TRAMLINES) - 0.5 * _TRAMLINES) - _GAUGE)

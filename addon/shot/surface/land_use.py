@@ -66,7 +66,7 @@ class MappedFeature:
 
 
 @dataclass(frozen=True)
-class Map:
+class LandUseMap:
     """Land use map in scene coordinates.
 
     Attributes
@@ -113,7 +113,7 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
 
 
 @cached_on_shot
-def read_map(shot: Shot) -> Map | None:
+def read_map(shot: Shot) -> LandUseMap | None:
     """Land use and footprints of a shot; None if there are none."""
     settings = shot.settings
     if settings.terrain.land_use is None and settings.terrain.buildings is None:
@@ -248,7 +248,9 @@ def _rings(feature_of_kind: tuple[str, Feature]) -> list[feature.Ring]:
     return [*(polygon[0] for polygon in item.polygons), *item.lines]
 
 
-def _placed(shot: Shot, mapped: list[tuple[str, Feature]], footprints: list[tuple[str, Feature]]) -> Map:
+def _placed(
+    shot: Shot, mapped: list[tuple[str, Feature]], footprints: list[tuple[str, Feature]]
+) -> LandUseMap:
     def scene(ring: Array) -> Array:
         return shot.bare_ground.point(ring[:, 1], ring[:, 0])[:, :2]
 
@@ -271,7 +273,7 @@ def _placed(shot: Shot, mapped: list[tuple[str, Feature]], footprints: list[tupl
     features.sort(key=lambda item: order.index(item.kind))
     low, high = _extent(features)
     own = [item for item in features if item.number < len(mapped)]
-    return Map(tuple(features), low, high, _extent(own) if own else None)
+    return LandUseMap(tuple(features), low, high, _extent(own) if own else None)
 
 
 def _extent(features: list[MappedFeature]) -> tuple[Array, Array]:
@@ -281,7 +283,7 @@ def _extent(features: list[MappedFeature]) -> tuple[Array, Array]:
     return every.min(axis=0), every.max(axis=0)
 
 
-def _frames(shot: Shot, known: Map) -> list[tuple[Array, Array]]:
+def _frames(shot: Shot, known: LandUseMap) -> list[tuple[Array, Array]]:
     """Corners of the pictures to draw: the whole map, and areas near cameras."""
     ground = shot.ground
     low, high = known.low - _BEYOND, known.high + _BEYOND
@@ -295,10 +297,10 @@ def _frames(shot: Shot, known: Map) -> list[tuple[Array, Array]]:
     return frames
 
 
-def _drawn(shot: Shot, known: Map, layer: str, low: Array, high: Array) -> OrthophotoImage:
+def _drawn(shot: Shot, known: LandUseMap, layer: str, low: Array, high: Array) -> OrthophotoImage:
     """Rasterize one layer of the map."""
     size = np.clip(np.ceil((high - low) / _FINEST), 2, _LARGEST).astype(int)
-    picture = land_drawing.Picture(low, high, size)
+    picture = land_drawing.LandPicture(low, high, size)
     for mapped in known.features:
         kind = KINDS[mapped.kind]
         if kind.layer == layer:
@@ -309,7 +311,7 @@ def _drawn(shot: Shot, known: Map, layer: str, low: Array, high: Array) -> Ortho
     return OrthophotoImage(low, high, picture.pixels)
 
 
-def _draw(picture: land_drawing.Picture, mapped: MappedFeature, kind: LandUseKind, seed: int) -> None:
+def _draw(picture: land_drawing.LandPicture, mapped: MappedFeature, kind: LandUseKind, seed: int) -> None:
     """Draw a feature in one of its colours, a little lighter or darker than others."""
     lot, bright = noise.uniform([mapped.number] * 2, [7, 8], seed)
     choice = int(lot * len(kind.colours))

@@ -18,7 +18,7 @@ _MOST = 6_000_000  # points at most
 _FADE = 8  # points next to a gap over which the model blends into synthetic relief
 
 
-class Patch(NamedTuple):
+class HeightPatch(NamedTuple):
     """Heights of a part of the terrain grid, as `terrain.Surface` takes them."""
 
     row: int
@@ -50,7 +50,7 @@ def patch(
     relief: Elevation,
     cell: tuple[float, float],
     near: tuple[slice, slice],
-) -> Patch | None:
+) -> HeightPatch | None:
     """Sample the elevation model in these rows and columns, without the apron; None if it has no data there.
 
     It has the resolution of the model, or as many points as allowed.
@@ -78,7 +78,9 @@ def patch(
         offset = _beside_tiles(relief, offset, axes, [fields.latitude[place[0]], fields.longitude[place[1]]])
     known = np.isfinite(offset)
     counts = ramp(known, _FADE) * bilinear(share[place], *index).astype(np.float32)
-    return Patch(place[0].start, place[1].start, parts, np.where(known, offset, np.float32(0.0)), counts)
+    return HeightPatch(
+        place[0].start, place[1].start, parts, np.where(known, offset, np.float32(0.0)), counts
+    )
 
 
 def _beside_tiles(relief: Elevation, offset: NDArray, axes: list[Array], grid: list[Array]) -> NDArray:

@@ -103,9 +103,9 @@ class Terrain:
         slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
         self._slope = np.minimum(slope, 1.0)
         self.surface, self.rough = self._surface(), RELIEF
-        self.patch: dem_patch.Patch | None = None
+        self.patch: dem_patch.HeightPatch | None = None
 
-    def _surface(self, patch: dem_patch.Patch | None = None) -> terrain.Surface:
+    def _surface(self, patch: dem_patch.HeightPatch | None = None) -> terrain.Surface:
         return terrain.Surface(
             self.fields.elevation,
             self._slope,

@@ -23,7 +23,7 @@ _FILE = "tileset.json"
 
 
 @dataclass
-class Summary:
+class TilesetSummary:
     """Numbers of the written tileset.
 
     Attributes
@@ -57,9 +57,9 @@ class Maker:
     ) -> None:
         self.lattice, self.colours, self.out, self.credit = lattice, colours, out, credit
         self._buildings = _group_by_leaf(lattice, buildings)
-        self.summary = Summary(errors=[0.0] * (lattice.levels + 1))
+        self.summary = TilesetSummary(errors=[0.0] * (lattice.levels + 1))
 
-    def run(self, progress: Progress = silent) -> Summary:
+    def run(self, progress: Progress = silent) -> TilesetSummary:
         """Write all tiles, and `tileset.json` last.
 
         Raises

@@ -18,7 +18,7 @@ from ._source import MAX_BYTES, Source, missing, unpack
 from .address import Origin, origin
 from .backoff import MAX_RETRIES, MAX_RETRY_AFTER, Backoff, Clock, retry_delay
 from .connection import Connection, Response, TransportError
-from .http_cache import Answer, HttpCache
+from .http_cache import CachedAnswer, HttpCache
 from .network import Network
 from .watchdog import Spent
 
@@ -120,7 +120,7 @@ class Http(Source):
         if self._cache:
             self._cache.close()
 
-    def _offline(self, uri: str, kept: Answer | None, max_bytes: int) -> bytes:
+    def _offline(self, uri: str, kept: CachedAnswer | None, max_bytes: int) -> bytes:
         """Read a file from the cache without the server."""
         if kept is not None and not kept.strict and self.policy.may_work_offline:
             return unpack(kept.body, max_bytes, self.name(uri))
@@ -153,7 +153,7 @@ class Http(Source):
         self.redactor.add(key)
         self._secrets[policy.key_parameter] = key
 
-    def _fetch(self, uri: str, kept: Answer | None, max_bytes: int) -> bytes:
+    def _fetch(self, uri: str, kept: CachedAnswer | None, max_bytes: int) -> bytes:
         """Fetch a body from the server, with retries."""
         name, tries, cut_off, refreshed = self.name(uri), 0, 0, False
         while True:
@@ -238,7 +238,7 @@ class Http(Source):
             for spent in (self._spent, self.network.spent):
                 spent.add(time.monotonic() - began)
 
-    def _ask(self, uri: str, kept: Answer | None, max_bytes: int, session: str) -> Response:
+    def _ask(self, uri: str, kept: CachedAnswer | None, max_bytes: int, session: str) -> Response:
         """Send a request; follow redirects within the host."""
         url = uri
         headers = {}
@@ -278,7 +278,7 @@ class Http(Source):
             self._cache.put(uri, response.body, response.headers, self.clock.now())
         return response.body
 
-    def _confirm(self, uri: str, kept: Answer, response: Response) -> bytes:
+    def _confirm(self, uri: str, kept: CachedAnswer, response: Response) -> bytes:
         if self._cache:
             self._cache.refresh(uri, response.headers, self.clock.now())
         return kept.body

@@ -33,7 +33,7 @@ _KEPT = 0.9  # of the limit, after eviction
 
 
 @dataclass(frozen=True)
-class Answer:
+class CachedAnswer:
     """A response in the cache.
 
     Attributes
@@ -110,7 +110,7 @@ class HttpCache:
         self._lock = threading.Lock()
         self._size: int | None = None
 
-    def find(self, url: str, now: float) -> Answer | None:
+    def find(self, url: str, now: float) -> CachedAnswer | None:
         """Find the response of a URL; None without one. A damaged response is removed."""
         return self._try(lambda data: self._find(data, _key(url), now), None)
 
@@ -149,7 +149,7 @@ class HttpCache:
             data.close()
             self._own.data = None
 
-    def _find(self, data: Database, key: str, now: float) -> Answer | None:
+    def _find(self, data: Database, key: str, now: float) -> CachedAnswer | None:
         row = data.fetch_one(f"SELECT {_COLUMNS} FROM answer WHERE key = ?", key)
         if row is None:
             return None
@@ -164,7 +164,7 @@ class HttpCache:
             return None
         if abs(now - used) > _TOUCH:
             data.execute("UPDATE answer SET used = ? WHERE key = ?", now, key)
-        return Answer(body, etag, modified, expires, bool(strict))
+        return CachedAnswer(body, etag, modified, expires, bool(strict))
 
     def _put(
         self, data: Database, url: str, body: bytes, headers: Mapping[str, str], rules: Rules, now: float

@@ -14,7 +14,7 @@ EDGES = np.linspace(-400.0, 400.0, 17)
 @pytest.fixture
 def grid():
     """Even slabs and cells of 50 m about the origin."""
-    return smoke_grid.Grid((EDGES,) * 3, (EDGES,) * 3)
+    return smoke_grid.SmokeGrid((EDGES,) * 3, (EDGES,) * 3)
 
 
 def slabs(opacity, light=0.5):
@@ -101,7 +101,7 @@ def test_sheets_that_cross_have_the_same_light():
     """Light that is linear along each axis has its value at each place of a sheet."""
     cells = (np.linspace(0.0, 80.0, 9), np.linspace(-60.0, 0.0, 7), np.linspace(10.0, 50.0, 5))
     edges = ([10.0, 25.0, 70.0], [-50.0, -30.0, -5.0], [16.0, 20.0, 42.0])
-    uneven = smoke_grid.Grid(tuple(np.array(each) for each in edges), cells)
+    uneven = smoke_grid.SmokeGrid(tuple(np.array(each) for each in edges), cells)
     x, y, z = np.meshgrid(*(0.5 * (each[1:] + each[:-1]) for each in cells), indexing="ij")
     field = np.repeat((x + 2.0 * y + 3.0 * z)[..., None], 3, axis=-1)
     for axis in range(3):

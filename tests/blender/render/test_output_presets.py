@@ -4,7 +4,7 @@ import bpy
 import firetwin
 import pytest
 from firetwin.shot import schema
-from firetwin.shot.cameras.rigs.poses import Pose, Poses
+from firetwin.shot.cameras.rigs.poses import PoseKey, Poses
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import Camera, Render, output_presets
 from firetwin.ui import camera_list, job, keys, scene_file, translations
@@ -19,8 +19,8 @@ def panel(scene):
     firetwin.register()
     job.Job.current = job.Job("Test", iter(()))
     panel = scene.firetwin
-    camera_list.add(panel, Camera("drone", Poses(keys=(Pose(),))))
-    camera_list.add(panel, Camera("heat", Poses(keys=(Pose(),)), passes=("rgb", "thermal")))
+    camera_list.add(panel, Camera("drone", Poses(keys=(PoseKey(),))))
+    camera_list.add(panel, Camera("heat", Poses(keys=(PoseKey(),)), passes=("rgb", "thermal")))
     job.Job.current = None
     yield panel
     firetwin.unregister()

@@ -71,7 +71,7 @@ def _shot(run, keys, frames):
 def test_a_flown_way_comes_back_through_the_file(make_run, tmp_path):
     """Place to a micrometre and turn to 1e-8 where keys are, after text, WGS84 and angles."""
     random = np.random.default_rng(3)
-    shot = _shot(runs.open(make_run()), (poses.Pose(),), 5)
+    shot = _shot(runs.open(make_run()), (poses.PoseKey(),), 5)
     place = random.uniform(-2000.0, 2000.0, (5, 3)) + np.array([0.0, 0.0, 4000.0])
     matrix = quaternion.matrices(random.normal(size=(5, 4)))
     lens = np.array([24.0, 24.0, 50.0, 70.0, 70.0])

@@ -8,7 +8,7 @@ from firetwin import argument_types
 from firetwin.errors import UsageError
 from firetwin.shot import schema
 from firetwin.shot.cameras.rigs._key import CameraKey
-from firetwin.shot.cameras.rigs.poses import Pose, Poses
+from firetwin.shot.cameras.rigs.poses import PoseKey, Poses
 from firetwin.shot.cameras.rigs.vr import RIG as VR
 from firetwin.shot.settings import Camera, Render, Settings, output_presets
 from firetwin.shot.source import ShotSource
@@ -16,8 +16,8 @@ from firetwin.shot.source import ShotSource
 
 def scene(**render):
     cameras = (
-        Camera("drone", Poses(keys=(Pose(),))),
-        Camera("heat", Poses(keys=(Pose(),)), passes=("thermal",)),
+        Camera("drone", Poses(keys=(PoseKey(),))),
+        Camera("heat", Poses(keys=(PoseKey(),)), passes=("thermal",)),
         Camera("around", VR(keys=(CameraKey(),)), resolution=(512, 512)),
     )
     return Settings(path=Path("shots/king.toml"), cameras=cameras, render=Render(**render))

@@ -297,7 +297,7 @@ def test_an_answer_without_a_run_is_not_ahead_of_anything(tmp_path):
     station_file = random_stations(5, gaps=0.0)
     writing.write(station_file, tmp_path / "p.gpkg")
     read = reading.read(tmp_path / "p.gpkg")
-    answer = page.Answer(read, Query(near=CENTRE), search.survey(read, Query(near=CENTRE)))
+    answer = page.SearchAnswer(read, Query(near=CENTRE), search.survey(read, Query(near=CENTRE)))
     assert answer.ahead(1.0) is answer
     assert "fire" not in answer.as_json()["matches"][0]
     assert page.facts(read)["windows"]["begins"] >= times.iso(NOON - timedelta(hours=6))

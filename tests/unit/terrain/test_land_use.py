@@ -107,7 +107,7 @@ def test_roads_are_as_wide_as_they_say(make):
 
 def drawn(draw, *arguments):
     """Picture (200 m square, pixels of 0.5 m) of one feature."""
-    picture = land_drawing.Picture(np.zeros(2), np.full(2, 200.0), np.array([400, 400]))
+    picture = land_drawing.LandPicture(np.zeros(2), np.full(2, 200.0), np.array([400, 400]))
     draw(picture, *arguments)
     return picture.pixels / 255.0
 

@@ -19,7 +19,7 @@ FOCAL_LENGTH: Bounds = {"unit": "mm", "at_least": 1, "at_most": 5000}
 
 
 @dataclass(frozen=True)
-class Lens(Rig):
+class LensRig(Rig):
     """Kind of camera with a lens."""
 
     focal_length: float = key(28.0, "focal length", **FOCAL_LENGTH)

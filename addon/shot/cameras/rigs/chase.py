@@ -11,7 +11,7 @@ from ...schema import key
 from ...schema.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
 from .. import flight, path, targets
 from ..path import Path
-from ._lens import Lens
+from ._lens import LensRig
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
@@ -23,7 +23,7 @@ _RIDGE_MARGIN = 40.0  # m that the line of sight clears ridges by at most
 
 
 @dataclass(frozen=True)
-class Chase(Lens):
+class Chase(LensRig):
     """Perspective camera that follows the head of the fire."""
 
     distance: float = key(1500.0, "horizontal distance from the head", **LENGTH)

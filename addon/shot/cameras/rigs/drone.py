@@ -15,7 +15,7 @@ from ..flight import Waypoints
 from ..path import Array, Path
 from ..track import MOMENTS, read
 from ._key import CameraKey, rising
-from ._lens import Lens
+from ._lens import LensRig
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
@@ -31,7 +31,7 @@ _CLEARANCE = 0.35  # minimum height over hills between keys / requested height a
 
 
 @dataclass(frozen=True)
-class Drone(Lens):
+class Drone(LensRig):
     """Perspective camera that flies smoothly from key to key or along a track."""
 
     over_ridges: bool = key(

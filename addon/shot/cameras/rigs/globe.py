@@ -14,7 +14,7 @@ from ...schema import Where, key
 from ...schema.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
 from .. import clipping, flight, path, zoom
 from ..path import Array, Path
-from ._lens import Lens
+from ._lens import LensRig
 from .tour import HEAD, Stop, Tour
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ _TERRAIN = 300_000.0  # m from the run within which there may be terrain
 
 
 @dataclass(frozen=True)
-class Globe(Lens):
+class Globe(LensRig):
     """Perspective camera that flies from space to a place, along a great circle."""
 
     beyond: ClassVar[bool] = True

@@ -12,7 +12,7 @@ from ...schema.bounds import ANGLE, HEIGHT
 from .. import path
 from ..path import Path
 from ._key import rising
-from ._lens import Lens
+from ._lens import LensRig
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
@@ -37,7 +37,7 @@ class LookoutKey:
 
 
 @dataclass(frozen=True)
-class Lookout(Lens):
+class Lookout(LensRig):
     """Camera on a fixed mast that pans, tilts and zooms from key to key."""
 
     latitude: float = key(0.0, "mast latitude", unit="degrees north", at_least=-90, at_most=90)

@@ -10,7 +10,7 @@ from ...schema import Where, key
 from ...schema.bounds import SENSOR as WIDTH
 from ..path import SENSOR, Path
 from . import Rig
-from ._lens import FOCAL_LENGTH, Lens
+from ._lens import FOCAL_LENGTH, LensRig
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
@@ -37,7 +37,7 @@ class Mounted(Rig):
 
     def followed(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
         """Return the perspective camera whose mount it shares; None without a camera of that name."""
-        candidates = (camera for camera in cameras if isinstance(camera.rig, Lens))
+        candidates = (camera for camera in cameras if isinstance(camera.rig, LensRig))
         return next((candidate for candidate in candidates if candidate.name == self.follows), None)
 
     def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:

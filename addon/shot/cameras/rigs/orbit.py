@@ -11,7 +11,7 @@ from ...schema import key
 from ...schema.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
 from .. import flight, path
 from ..path import Path
-from ._lens import FOCAL_LENGTH, Lens
+from ._lens import FOCAL_LENGTH, LensRig
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Orbit(Lens):
+class Orbit(LensRig):
     """Perspective camera that circles a point and looks at it."""
 
     focal_length: float = key(35.0, "focal length", **FOCAL_LENGTH)

@@ -14,7 +14,7 @@ from .. import path, sparse_keys
 from .. import rotation as turning
 from ..path import Path
 from ._key import rising
-from ._lens import FOCAL_LENGTH, Lens
+from ._lens import FOCAL_LENGTH, LensRig
 
 if TYPE_CHECKING:
     from firetwin_core import geo
@@ -29,7 +29,7 @@ _FAR = 5000.0  # m, distance of its look-at points
 
 
 @dataclass(frozen=True)
-class Pose:
+class PoseKey:
     """Position and orientation of a camera at one time, independent of the terrain."""
 
     at: float = key(0.0, "time of the key; 0: first frame, 1: last frame", at_least=0, at_most=1)
@@ -47,15 +47,15 @@ class Pose:
 
 
 @dataclass(frozen=True)
-class Poses(Lens):
+class Poses(LensRig):
     """Perspective camera that moves through poses flown or keyed by hand."""
 
-    keys: tuple[Pose, ...] = key((), "pose at one time")
+    keys: tuple[PoseKey, ...] = key((), "pose at one time")
 
     @classmethod
     def from_view(cls, view: View) -> Poses:
         """Pose of the view."""
-        pose = Pose(0.0, view.latitude, view.longitude, view.height, view.heading, view.tilt, view.roll)
+        pose = PoseKey(0.0, view.latitude, view.longitude, view.height, view.heading, view.tilt, view.roll)
         return cls(**view.lens, keys=(pose,))
 
     def validate(self) -> tuple[Where, str] | None:
@@ -97,13 +97,13 @@ class Poses(Lens):
         )
 
 
-def _matrix(frame: geo.LocalFrame, place: path.Array, pose: Pose) -> path.Array:
+def _matrix(frame: geo.LocalFrame, place: path.Array, pose: PoseKey) -> path.Array:
     return turning.turned(frame, place, pose.heading, pose.tilt, pose.roll)
 
 
 def keyed(
     frame: geo.LocalFrame, at: path.Array, place: path.Array, rotation: path.Array, lens: path.Array
-) -> tuple[Pose, ...]:
+) -> tuple[PoseKey, ...]:
     """Poses of a camera at times (k,): positions (k, 3), matrices (k, 3, 3) in the scene, lenses (k,), mm.
 
     Parameters
@@ -114,7 +114,7 @@ def keyed(
     latitude, longitude, height = frame.reverse(place)
     several = bool(np.ptp(lens) > 0.0)
     return tuple(
-        Pose(
+        PoseKey(
             float(at[k]),
             float(latitude[k]),
             float(longitude[k]),

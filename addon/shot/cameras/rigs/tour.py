@@ -15,7 +15,7 @@ from ...schema.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
 from ...schema.did_you_mean import suggestion
 from .. import flight, path, targets
 from ..path import Array, Path
-from ._lens import Lens
+from ._lens import LensRig
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
@@ -61,7 +61,7 @@ class Stop:
 
 
 @dataclass(frozen=True)
-class Tour(Lens):
+class Tour(LensRig):
     """Perspective camera that visits places in order."""
 
     clearance: float = key(50.0, "minimum height above the terrain, also between frames", **CLEARANCE)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.shot.terrain import tile_heights
-from firetwin.tiles.decoded import Decoded, Summary
+from firetwin.tiles.decoded import Decoded, TileSummary
 from firetwin_core import geo, tiles
 from firetwin_core.run import open as open_run
 from hypothesis import given
@@ -25,7 +25,7 @@ def tile(position, triangle, origin=(0.0, 0.0, 0.0)):
         triangle=np.asarray(triangle, np.int32),
         material_index=np.zeros(len(triangle), np.int32),
         materials=(),
-        about=Summary(count, len(triangle), 0, 0.0, ""),
+        about=TileSummary(count, len(triangle), 0, 0.0, ""),
     )
 
 
