@@ -11,7 +11,7 @@ from typing import NamedTuple
 VARIABLES = {"found", "known", "made"}
 DEFINITIONS = {"Here", "_alone"}
 LINES = 5  # between binding and last use
-CEILINGS = {"addon": 200, "tests": 290}
+CEILINGS = {"addon": 154, "tests": 141}
 """Names that are left, by folder. Only lower figures may replace these."""
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
