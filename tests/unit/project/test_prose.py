@@ -109,7 +109,7 @@ def test_python_may_not_say_is_no_x_at_any_rate(tmp_path, monkeypatch, capsys):
 
 
 NAMES = """\
-class ShotBiome:
+class Here:
     pass
 
 
@@ -138,7 +138,7 @@ def test_names_that_live_long_and_definitions_count_up_to_the_ceiling(
     monkeypatch.setattr(names, "CEILINGS", {"addon": ceiling})
     monkeypatch.setattr(sys, "argv", ["prose", "addon"])
     assert [(name.line, name.name) for name in names.count(tmp_path)["addon"]] == [
-        (1, "ShotBiome"),
+        (1, "Here"),
         (5, "found"),
     ]
     assert report.main() == status
