@@ -21,16 +21,12 @@ SAMPLE = 2e-3
 
 @dataclass(frozen=True)
 class Runner:
-    """One tool of a race: the function to call, its number of threads, and its error.
-
-    `before` prepares each call, outside of the timing.
-    """
+    """One tool of a race: the function to call, its number of threads, and its error."""
 
     tool: str
     call: Callable[[], Any]
     threads: int = 1
     error: float | None = None
-    before: Callable[[], Any] | None = None
 
     @property
     def label(self) -> str:
@@ -111,16 +107,12 @@ def race(runners: Sequence[Runner], most: int, budget: float) -> list[Times]:
 def _often(runner: Runner) -> int:
     """Choose the number of calls in a sample; the first call has cold caches and does not count."""
     seconds = _sample(runner, 1)
-    if runner.before:
-        return 1
     if seconds < 50 * SAMPLE:
         seconds = _sample(runner, 1)
     return max(1, math.ceil(SAMPLE / max(seconds, 1e-9)))
 
 
 def _sample(runner: Runner, number: int) -> float:
-    if runner.before:
-        runner.before()
     with threads(runner.threads):
         watch = Stopwatch()
         for _ in range(number):

@@ -33,7 +33,7 @@ def box_of(mask: NDArray[np.bool_]) -> Box | None:
     return float(columns[0]), float(rows[0]), float(columns[-1] + 1), float(rows[-1] + 1)
 
 
-def differs(a: Box, b: Box) -> bool:
+def _differs(a: Box, b: Box) -> bool:
     """Return whether two boxes differ by more than half a pixel."""
     return bool(np.abs(np.subtract(a, b)).max() > TOLERANCE)
 
@@ -72,7 +72,7 @@ def _annotation(
         found = box_of(mask)
         if found is None:
             yield f"annotation {each.id} has no pixels in the mask of its {name}"
-        elif differs(found, box):
+        elif _differs(found, box):
             yield f"annotation {each.id} has the {name} {_text(box)}, its mask {_text(found)}"
         elif int(mask.sum()) != pixels:
             yield f"annotation {each.id} has {pixels:,} pixels, its mask {int(mask.sum()):,}"

@@ -20,21 +20,6 @@ def encode(mask: NDArray[np.bool_]) -> dict[str, Any]:
     return {"size": [int(size) for size in mask.shape], "counts": _compress(lengths)}
 
 
-def decode(runs: dict[str, Any]) -> NDArray[np.bool_]:
-    """Decode `encode`'s run lengths to a mask (h, w).
-
-    Raises
-    ------
-    ValueError
-        The lengths are damaged, or do not add up to the size.
-    """
-    lengths = _expand(runs["counts"])
-    height, width = runs["size"]
-    if (lengths < 0).any() or lengths.sum() != height * width:
-        raise ValueError("the run lengths do not add up to the size of the mask")
-    return np.repeat(np.arange(len(lengths)) % 2 == 1, lengths).reshape((height, width), order="F")
-
-
 def _compress(lengths: NDArray[np.int64]) -> str:
     """Write each length, from the fourth as difference to the second before it, in characters of 5 bits."""
     left = lengths.copy()
@@ -48,18 +33,3 @@ def _compress(lengths: NDArray[np.int64]) -> str:
         follows &= more
     letters = np.stack(columns, axis=1).astype(np.uint8) if columns else np.empty(0, np.uint8)
     return letters[letters > 0].tobytes().decode("ascii")
-
-
-def _expand(counts: str) -> NDArray[np.int64]:
-    """Read the lengths that `_compress` wrote."""
-    codes = np.frombuffer(counts.encode("ascii"), np.uint8).astype(np.int64) - _FIRST
-    ends = np.flatnonzero(codes < 32)
-    if not codes.size or codes.min() < 0 or codes.max() > 63 or codes[-1] > 31:
-        raise ValueError("the run lengths are damaged")
-    starts = np.concatenate([[0], ends[:-1] + 1])
-    place = np.arange(codes.size) - np.repeat(starts, ends - starts + 1)
-    values = np.add.reduceat((codes & 31) << (_BITS * place), starts)
-    values -= np.where(codes[ends] & 16, np.int64(1) << (_BITS * (ends - starts + 1)), 0)
-    for first in (1, 2):  # sums along the odd and the even lengths, from the second and the third
-        values[first::2] = np.cumsum(values[first::2])
-    return values

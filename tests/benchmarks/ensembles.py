@@ -1,8 +1,8 @@
-"""Shares, quantiles and depths of forecast members, compared with NumPy on all members at once.
+"""Shares, quantiles and depths of forecast members, and depths compared with NumPy on all members at once.
 
-The members are ellipses with random sizes and directions. NumPy computes shares as means, quantiles of
-definition 1 (`inverted_cdf`), and depths from the common areas of all pairs of members. Its arrays are in
-memory; firetwin's are read from the disk. The peak memory is of a process that computes all three.
+The members are ellipses with random sizes and directions. NumPy computes depths from the common areas of all
+pairs of members. Its arrays are in memory; firetwin's are read from the disk. The peak memory is of a process
+that computes all three.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 HORIZON = 86_400.0  # s
 MOMENTS = np.linspace(HORIZON / 8, HORIZON, 8)
 LEVELS = (0.1, 0.5, 0.9)
-CASES = ((20, 720), (100, 720), (1000, 120))  # members, cells along a side
+LARGE, MANY = (100, 720), (1000, 120)  # members, cells along a side
 
 
 def members(count: int, side: int) -> Iterator[tuple[Member, NDArray[np.float32]]]:
@@ -55,16 +55,6 @@ def compute(forecast: Ensemble) -> tuple[NDArray, NDArray, NDArray]:
     return shares, statistics.quantiles(forecast, LEVELS), statistics.depths(forecast, HORIZON)
 
 
-def numpy_shares(arrival: NDArray, _: NDArray) -> NDArray:
-    """Compute shares (nt, ny, nx) of arrival times (m, ny, nx)."""
-    return np.stack([(arrival <= moment).mean(0) for moment in MOMENTS])
-
-
-def numpy_quantiles(arrival: NDArray, _: NDArray) -> NDArray:
-    """Compute quantiles (k, ny, nx) of arrival times (m, ny, nx)."""
-    return np.quantile(arrival, LEVELS, axis=0, method="inverted_cdf")
-
-
 def numpy_depths(arrival: NDArray, area: NDArray) -> NDArray:
     """Compute epsilon inclusion depths (m,) from the common area of each pair; no member may be empty."""
     inside = (arrival <= HORIZON).reshape(len(arrival), -1).astype(np.float32)
@@ -73,55 +63,26 @@ def numpy_depths(arrival: NDArray, area: NDArray) -> NDArray:
     return (np.minimum(share.sum(0), share.sum(1)) - 1.0) / (len(arrival) - 1)
 
 
-NUMPY = {"shares": numpy_shares, "quantiles": numpy_quantiles, "depths": numpy_depths}
-
-
 def run(bench: Bench) -> None:
-    """Measure run time and memory for 20, 100 and 1,000 members, and compare 1,000 members with NumPy."""
-    per_value = {}
-    for count, side in CASES:
-        with tempfile.TemporaryDirectory() as folder:
-            forecast = make(Path(folder) / "ensemble", count, side)
-            case = f"{count:,} members of {side} x {side}"
-            seconds = _rows(bench, forecast, case, numpy=count == CASES[-1][0])
-            per_value[count] = [each / (count * side * side) for each in seconds]
-            if count == 100:
-                bench.target(f"Time of the three, {case}", seconds, 3.0, "s", most=True)
-                peak = worker.run(f"{__name__}:peak_of", {"folder": str(forecast.path)}, blender=False)
-                if peak:  # known
-                    bench.target(f"Peak memory of a process, {case}", peak / 1e6, 300.0, "MB", most=True)
-    growth = [many / few for few, many in zip(per_value[20], per_value[1000], strict=False)]
-    bench.target("Time per value, 1,000 members / 20 members", growth, 2.0, "x", most=True)
-
-
-def _rows(bench: Bench, forecast: Ensemble, case: str, numpy: bool) -> list[float]:
-    """Time the three statistics, and NumPy's; return the sums of firetwin's seconds in each repetition."""
-    arguments = {"shares": MOMENTS, "quantiles": LEVELS, "depths": HORIZON}
-    arrival = np.load(forecast.path / ensemble.ARRIVAL) if numpy else np.empty(0)
-    taken = []
-    for step, argument in arguments.items():
-        compute = partial(getattr(statistics, step), forecast, argument)
-        runners = [Runner(OURS, compute)]
-        if numpy:
-            theirs = partial(NUMPY[step], arrival, forecast.areas)
-            made = compute()
-            error = _difference(made.share if isinstance(made, statistics.Shares) else made, theirs())
-            runners.append(Runner("NumPy", theirs))
-            bench.target(f"Largest difference from NumPy, {step}", error, 5e-6, "", most=True)
-        times = bench.race(f"{step}, {case}", runners, int(np.prod(forecast.shape)), "value")
-        if step == "depths" and numpy:
-            speed = times[OURS].faster_than(times["NumPy"])
-            bench.target(f"Speed of depths / areas of all pairs, {case}", speed, 2.0, "x")
-        taken.append(times[OURS].seconds)
-    return [sum(each) for each in zip(*taken, strict=False)]
-
-
-def _difference(ours: NDArray, theirs: NDArray) -> float:
-    """Return the largest absolute difference; infinite values must be equal."""
-    finite = np.isfinite(theirs)
-    if not np.array_equal(ours[~finite], theirs[~finite]):
-        return np.inf
-    return float(np.abs(ours[finite] - theirs[finite]).max())
+    """Measure run time and memory for 100 large members, and the depths of 1,000 small ones against NumPy."""
+    with tempfile.TemporaryDirectory() as folder:
+        forecast = make(Path(folder) / "large", *LARGE)
+        case = f"{LARGE[0]} members of {LARGE[1]} x {LARGE[1]}"
+        times = bench.race(
+            case, [Runner(OURS, partial(compute, forecast))], int(np.prod(forecast.shape)), "value"
+        )
+        bench.target(f"Time of the three, {case}", times[OURS].seconds, 3.0, "s", most=True)
+        peak = worker.run(f"{__name__}:peak_of", {"folder": str(forecast.path)}, blender=False)
+        if peak:  # known
+            bench.target(f"Peak memory of a process, {case}", peak / 1e6, 300.0, "MB", most=True)
+        forecast = make(Path(folder) / "many", *MANY)
+        arrival = np.load(forecast.path / ensemble.ARRIVAL)
+        case = f"{MANY[0]:,} members of {MANY[1]} x {MANY[1]}"
+        ours = Runner(OURS, partial(statistics.depths, forecast, HORIZON))
+        pairs = Runner("NumPy, areas of all pairs", partial(numpy_depths, arrival, forecast.areas))
+        times = bench.race(f"depths, {case}", [ours, pairs], int(np.prod(forecast.shape)), "value")
+        speed = times[OURS].faster_than(times[pairs.label])
+        bench.target(f"Speed of depths / areas of all pairs, {case}", speed, 2.0, "x")
 
 
 def peak_of(folder: str, progress: Progress = silent, tell: MessageCallback = no_message) -> int:

@@ -12,4 +12,4 @@ if [[ ! -f $folder/complete ]]; then
   touch "$folder/complete"
 fi
 HF_HUB_OFFLINE=1 PYTHONPATH=$folder .venv/bin/python -m pytest -q -rs -p no:cacheprovider -o budget_factor=10 \
-  tests/unit/dataset/test_dataset_oracles.py tests/unit/dataset/test_dataset_finish.py tests/unit/dataset/test_dataset_rle.py -k "not come_back"
+  tests/unit/dataset/test_dataset_oracles.py tests/unit/dataset/test_dataset_finish.py tests/unit/dataset/test_dataset_rle.py

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..truth import Annotation, Box, CameraPose, Truth, stem
+from ..truth import Annotation, CameraPose, Truth, stem
 from . import common
 
 FORMAT = {"help": "labels/, data.yaml and lists of pictures: YOLO boxes"}
@@ -44,17 +44,3 @@ def line(annotation: Annotation, camera: CameraPose) -> str:
         (y1 - y0) / camera.height,
     )
     return " ".join([str(common.class_index(annotation)), *(f"{value:.7f}" for value in values)])
-
-
-def box(text: str, camera: CameraPose) -> tuple[int, Box]:
-    """Read a line: class from 0, and box in pixels.
-
-    Raises
-    ------
-    ValueError
-        The line does not have five numbers.
-    """
-    kind, x, y, w, h = text.split()
-    cx, cy = float(x) * camera.width, float(y) * camera.height
-    dx, dy = 0.5 * float(w) * camera.width, 0.5 * float(h) * camera.height
-    return int(kind), (cx - dx, cy - dy, cx + dx, cy + dy)

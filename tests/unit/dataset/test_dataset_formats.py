@@ -48,8 +48,8 @@ def test_coco_has_boxes_areas_and_masks_of_the_truth(made):
         expected = next(one for one in truth.annotations if one.category == each["category_id"])
         x, y, w, h = each["bbox"]
         assert (x, y, x + w, y + h) == expected.box
-        mask = rle.decode(each["segmentation"])
-        np.testing.assert_array_equal(mask, labelled.shapes(truth.index)[expected.category])
+        mask = labelled.shapes(truth.index)[expected.category]
+        assert each["segmentation"] == rle.encode(mask)
         assert each["area"] == mask.sum() == expected.pixels
         assert each["attributes"]["distance_m"] == 1234.5
 
@@ -73,9 +73,13 @@ def test_yolo_boxes_come_back(made):
     folder, samples = made
     for truth in samples:
         lines = (folder / f"labels/{stem(truth.index)}.txt").read_text().splitlines()
-        read = [yolo.box(line, truth.camera) for line in lines]
-        np.testing.assert_allclose([box for _, box in read], boxes_of_truth(truth), atol=1e-4)
-        assert [kind + 1 for kind, _ in read] == [each.category for each in truth.annotations]
+        kinds, middle, size = np.split(
+            np.array([line.split() for line in lines], float).reshape(-1, 5), (1, 3), 1
+        )
+        corners = [(middle - size / 2), (middle + size / 2)] * np.array([labelled.WIDTH, labelled.HEIGHT])
+        expected = np.reshape(boxes_of_truth(truth), (-1, 4))
+        np.testing.assert_allclose(np.hstack([*corners]), expected, atol=1e-4)
+        assert (kinds[:, 0] + 1).tolist() == [each.category for each in truth.annotations]
 
 
 def test_yolo_lists_each_picture_once_with_its_labels(made):

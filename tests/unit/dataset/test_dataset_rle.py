@@ -1,22 +1,12 @@
-"""Run lengths of masks: the same characters as pycocotools, and lossless."""
+"""Run lengths of masks: the same characters as pycocotools."""
 
 import numpy as np
 import pytest
 from firetwin.dataset import rle
-from hypothesis import given
-from hypothesis import strategies as st
 
 
 def ragged(height, width, seed, share=0.5):
     return np.random.default_rng(seed).random((height, width)) < share
-
-
-@given(
-    st.integers(1, 40), st.integers(1, 40), st.integers(0, 99), st.sampled_from([0.0, 0.01, 0.5, 0.99, 1.0])
-)
-def test_masks_come_back(height, width, seed, share):
-    mask = ragged(height, width, seed, share)
-    np.testing.assert_array_equal(rle.decode(rle.encode(mask)), mask)
 
 
 def test_lengths_are_by_columns_from_the_background():
@@ -25,7 +15,7 @@ def test_lengths_are_by_columns_from_the_background():
     assert rle.encode(np.array([[1, 0], [1, 0]], bool)) == {"size": [2, 2], "counts": "022"}
 
 
-@pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
+@pytest.mark.parametrize("share", [0.0, 0.02, 0.5, 0.98, 1.0])
 def test_characters_equal_those_of_pycocotools(share):
     coco = pytest.importorskip("pycocotools.mask")
     plume = np.zeros((480, 640), bool)
@@ -33,9 +23,3 @@ def test_characters_equal_those_of_pycocotools(share):
     for mask in (ragged(48, 64, 1, share), plume, plume & ragged(480, 640, 2, share)):
         expected = coco.encode(np.asfortranarray(mask, np.uint8))
         assert rle.encode(mask) == {"size": list(mask.shape), "counts": expected["counts"].decode()}
-
-
-@pytest.mark.parametrize("counts", ["", "22o", "23", "2", "é", "\n2"])
-def test_damaged_lengths_are_refused(counts):
-    with pytest.raises(ValueError, match=r"run lengths|ascii"):
-        rle.decode({"size": [2, 2], "counts": counts})
