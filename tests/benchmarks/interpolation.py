@@ -3,20 +3,17 @@
 Front error: percentage of the cells crossed by the front during a gap that are on its wrong side at the
 held-out minute, that is, the position error as a fraction of the distance moved. The integral of F^1.5 drives
 size and colour of the flames. Its ripple is the root mean square deviation from a linear course between the
-retained minutes; it is visible as one pulse per model step. Times are measured on consecutive frames.
+retained minutes; it is visible as one pulse per model step.
 """
 
 from __future__ import annotations
 
-import itertools
 import tempfile
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 from firetwin.bench.harness import OURS, Bench
-from firetwin.bench.timing import Runner
 from firetwin.data import sample, stored
 from firetwin.data.grid import MODEL_CELL_SIZE, MODEL_CELLS, axes
 from firetwin_core import run as runs
@@ -85,7 +82,7 @@ def run(bench: Bench) -> None:
                 OURS: Interpolator(model).at,
                 LINEAR: lambda t: linear(model, t),  # noqa: B023
             }
-            errors = _errors(bench, case, tools, flux, seconds, kept)
+            errors = _errors(tools, flux, seconds, kept)
         for index, name in enumerate(("Front error", "F^1.5 ripple")):
             ours, theirs = (errors[tool][index] for tool in (OURS, LINEAR))
             bench.target(f"{name}, {case}", ours, theirs, "%", most=True, rival=LINEAR)
@@ -107,14 +104,9 @@ def _missing(kept: NDArray) -> list[int]:
 
 
 def _errors(
-    bench: Bench,
-    case: str,
-    tools: dict[str, Interpolate],
-    flux: NDArray,
-    seconds: NDArray,
-    kept: NDArray,
+    tools: dict[str, Interpolate], flux: NDArray, seconds: NDArray, kept: NDArray
 ) -> dict[str, tuple[float, float]]:
-    """Return front error and ripple (%) of each tool, and add a row for each."""
+    """Return front error and ripple (%) of each tool."""
     removed = _missing(kept)
     bright = _even(flux, kept, removed)
     errors = {}
@@ -126,13 +118,4 @@ def _errors(
             fronts.append(front_error(f, flux[i], flux[before], flux[after]))
         ripple = departure(np.array([brightness(f) for f in fields]), bright)
         errors[tool] = float(np.mean(fronts)), ripple
-    runners = [
-        Runner(tool, partial(_next, call, itertools.cycle(seconds[removed])), error=errors[tool][0])
-        for tool, call in tools.items()
-    ]
-    bench.race(case, runners, flux[0].size, "cell", "% of the distance moved")
     return errors
-
-
-def _next(call: Interpolate, moments: Iterator[float]) -> NDArray:
-    return call(next(moments))

@@ -118,22 +118,10 @@ def test_the_better_form_of_a_rival_is_the_one_to_beat(tmp_path, monkeypatch):
     monkeypatch.setattr(harness, "race", invented)
     path = tmp_path / "720.txt"
     path.write_text(text.grid_text(36))
-    wrong = dict.fromkeys([form for forms in text.RIVALS.values() for form in forms] + ["firetwin"], 0.0)
-    text.race(bench, path, 36, wrong)
+    text.race(bench, path, 36)
     speed = next(each for each in bench.targets if "loadtxt" in each.quantity)
     assert speed.values == (3.0,)
     assert not speed.met
-
-
-def test_wrong_values_are_seen():
-    grid = text.grid_text(36)
-    values = np.array(grid.split(), float).astype(np.float32)
-    assert text.wrong_share(grid, values) == 0
-    values[::2] = np.nextafter(values[::2], np.float32(np.inf))
-    assert text.wrong_share(grid, values) == 50.0
-    hard = text.hard_text()
-    by_way_of_double = np.array(hard.split(), float).astype(np.float32)
-    assert 40 < text.wrong_share(hard, by_way_of_double) < 60
 
 
 def test_front_error_and_departure():
@@ -150,18 +138,6 @@ def test_a_drone_sees_some_of_the_stems_of_a_stand():
     stems, levels = forest.stand(grid, forest.part(grid, 200), forest.drone())
     assert len(stems) == pytest.approx(20_000, rel=0.05)
     assert 0 < len(levels) < len(stems)
-
-
-def test_interpolation_is_timed_of_one_moment_after_another(monkeypatch):
-    """An interpolator keeps its state: asked for the same moment again, it has nothing to do."""
-    asked = []
-    monkeypatch.setattr(interpolation, "MINUTES", 10)
-    monkeypatch.setattr(interpolation, "LINEAR", "linear")
-    plain = interpolation.linear
-    monkeypatch.setattr(interpolation, "linear", lambda run, t: asked.append(t) or plain(run, t))
-    interpolation.run(Bench(subject="interpolation"))
-    assert len(asked) > 100
-    assert not any(a == b for a, b in zip(asked[-50:], asked[-49:], strict=False))
 
 
 def test_numpy_has_the_same_temperatures():
