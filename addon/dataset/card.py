@@ -11,25 +11,13 @@ from ..progress import count
 from . import licences, table
 from .about import About
 from .croissant import DESCRIPTION, LIMITS
+from .files import CONTENT
 from .formats import FORMATS, common
 from .truth import CATEGORIES, Truth
 
 NAME = "README.md"
 _TASKS = "object-detection", "image-segmentation", "depth-estimation"
 _SIZES = (1000, "n<1K"), (10_000, "1K<n<10K"), (100_000, "10K<n<100K")
-_FILES = {
-    "images": "visible picture with sensor effects, JPEG",
-    "clean": "the same without sensor effects, PNG",
-    "twin": "the same as clean, without smoke, PNG",
-    "alpha": "opacity of smoke in green light at the pixel's centre, 16-bit PNG; 65535: opaque",
-    "depth": "planar depth of solid surfaces, m, 32-bit TIFF; 0: sky",
-    "classes": "class of each pixel, 8-bit PNG",
-    "masks": "ids of annotations, PNG: smoke in red, visible fire in green, amodal fire in blue",
-    "instances": "numbers of trees and buildings, PNG: red + 256 green + 65536 blue",
-    "thermal": "brightness temperature, degrees C, 32-bit TIFF, and conditions of the sensor, JSON",
-    "palette": "thermal picture in colours, PNG; not for measurements",
-    "meta": "labels, camera, all draws and sources, JSON",
-}
 
 
 def write(folder: Path, about: About, samples: Sequence[Truth]) -> None:
@@ -100,7 +88,7 @@ def _categories() -> str:
 
 def _file_lines(folder: Path) -> Iterator[str]:
     """Yield the folders and formats that the data set has."""
-    for name, content in _FILES.items():
+    for name, content in CONTENT.items():
         if (folder / name).is_dir():
             yield f"`{name}/`: {content}"
     yield f"`{table.NAME}`: one row for each sample"

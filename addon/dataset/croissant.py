@@ -14,7 +14,7 @@ from typing import Any
 from .. import files
 from . import table, truth
 from .about import About
-from .files import KINDS
+from .files import CONTENT, KINDS
 
 NAME = "croissant.json"
 VERSION = "1.0.0"
@@ -107,7 +107,7 @@ def _file_sets(folder: Path) -> list[dict[str, Any]]:
             "@type": "cr:FileSet",
             "@id": name,
             "name": name,
-            "description": f"Files in the folder {name}, by number of the sample",
+            "description": f"{CONTENT[name]}, by number of the sample",
             "encodingFormat": _MIME[end],
             "includes": f"{name}/*{end}",
         }

@@ -1,20 +1,4 @@
-"""Files of a sample: pictures, maps and metadata in the folders of a data set.
-
-======== ============================================================================================
-folder   content
-======== ============================================================================================
-images   visible picture with sensor effects, JPEG
-clean    the same without sensor effects, PNG
-twin     the same as clean, without smoke, PNG
-alpha    opacity of smoke in green light, 16-bit PNG: 65535 is opaque
-depth    planar depth of solid surfaces, m, 32-bit TIFF; 0 is the sky
-classes  class of each pixel, 8-bit PNG with a palette (see `passes.masks`)
-masks    ids of annotations, RGB PNG: smoke in red, visible fire in green, amodal fire in blue; 0: none
-instances numbers of trees and buildings, RGB PNG: red + 256 green + 65536 blue; 0: none
-thermal  brightness temperature, degrees C, 32-bit TIFF, with its conditions in a JSON file
-palette  the same in colours, 8-bit PNG
-meta     labels and draws, JSON (see `truth`)
-======== ============================================================================================
+"""Files of a sample: pictures, maps and metadata in the folders of a data set (`CONTENT`).
 
 The metadata are written last: a sample is complete if they exist.
 """
@@ -56,6 +40,21 @@ KINDS = {
     "palette": ".png",
 }
 """File extensions of maps by folder; `truth.FOLDER` is apart."""
+
+CONTENT = {
+    "images": "visible picture with sensor effects, JPEG",
+    "clean": "the same without sensor effects, PNG",
+    "twin": "the same as clean, without smoke, PNG",
+    "alpha": "opacity of smoke in green light at the pixel's centre, 16-bit PNG; 65535: opaque",
+    "depth": "planar depth of solid surfaces, m, 32-bit TIFF; 0: sky",
+    "classes": "class of each pixel, 8-bit PNG",
+    "masks": "ids of annotations, PNG: smoke in red, visible fire in green, amodal fire in blue",
+    "instances": "numbers of trees and buildings, PNG: red + 256 green + 65536 blue",
+    "thermal": "brightness temperature, degrees C, 32-bit TIFF, and conditions of the sensor, JSON",
+    "palette": "thermal picture in colours, PNG; not for measurements",
+    truth.FOLDER: "labels, camera, all draws and sources, JSON",
+}
+"""Content of each folder."""
 
 MOST = 255
 """Maximum number of annotations of a picture, as ids have 8 bits in masks."""
