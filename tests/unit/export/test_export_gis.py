@@ -106,7 +106,10 @@ def test_a_camera_is_where_the_scene_has_it_in_earth_centred_metres(made, reques
     np.testing.assert_allclose(np.diff(points[:, 3]), 30.0)
     assert points[0, 3] == request_.shot.utc(1).timestamp()
     assert (begin, end) == ("2014-09-17T04:45:30.000Z", "2014-09-17T04:47:00.000Z")
-    assert [each for (each,) in rows(made, "SELECT frame FROM camera_frames")] == [1, 2, 3, 4]
+    frames, blobs = zip(*rows(made, "SELECT frame, geom FROM camera_frames"), strict=True)
+    assert frames == (1, 2, 3, 4)
+    single = shapely.get_coordinates([shape(each) for each in blobs], include_z=True)
+    np.testing.assert_array_equal(single, points[:, :3])
 
 
 def test_burned_areas_are_the_areas_within_the_fronts(made, request_):

@@ -3,8 +3,8 @@
 import errno
 
 import pytest
-from firetwin.errors import FullDiskError
-from firetwin.staging import staging
+from firetwin.errors import FullDiskError, InputError
+from firetwin.staging import new_folder, staging
 
 
 def fill(folder, text):
@@ -17,6 +17,13 @@ def fail(out):
     with staging(out) as folder:
         fill(folder, "new")
         raise OSError(errno.ENOSPC, "No space left on device")
+
+
+def collide(out):
+    with new_folder(out) as folder:
+        fill(folder, "new")
+        out.mkdir()
+        (out / "mine.txt").write_text("mine")
 
 
 def content(folder):
@@ -46,3 +53,10 @@ def test_an_error_leaves_the_folder_as_it_was(tmp_path):
             fail(path)
     assert content(out) == before
     assert list(tmp_path.iterdir()) == [out]
+
+
+def test_a_new_folder_never_replaces_one_that_came_meanwhile(tmp_path):
+    out = tmp_path / "out"
+    with pytest.raises(InputError, match="out: cannot be written"):
+        collide(out)
+    assert content(tmp_path) == {"out/mine.txt": "mine"}
