@@ -141,8 +141,9 @@ def _parser(commands: dict[str, Command]) -> argparse.ArgumentParser:
         inner = parsers.add_parser(
             each.name, help=each.summary, description=text, parents=[common], formatter_class=raw
         )
-        for part in (each, *extensions):
-            part.add(inner)
+        each.add(inner)
+        for extension in extensions:
+            extension.add(inner)
     return parser
 
 
