@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike, strerror
 from pathlib import Path
-from typing import Any
 
 from firetwin_core import Error, InputError
 
@@ -22,14 +21,12 @@ __all__ = [
     "UnavailableError",
     "UsageError",
     "disk_is_full",
-    "from_plain",
     "full_disk_error",
     "input_error",
     "is_nearly_full",
     "is_worth_another_try",
     "read_fault",
     "reading",
-    "to_plain",
     "writing",
 ]
 
@@ -76,34 +73,6 @@ def input_error(
 def full_disk_error(path: str | PathLike[str]) -> InputError:
     """Create the FullDiskError for a file."""
     return input_error(path, DISK_FULL, kind=FullDiskError)
-
-
-def to_plain(error: Error) -> dict[str, Any]:
-    """Convert an error to plain data for another process; `from_plain` is the reverse."""
-    kind = next(name for each in type(error).__mro__ if (name := each.__name__) in _KINDS)
-    if isinstance(error, InputError):
-        return {"kind": kind, "place": [error.path, error.line, error.column, error.reason]}
-    return {"kind": kind, "text": " ".join(str(error).split())}
-
-
-def from_plain(plain: dict[str, Any], more: str = "") -> Error:
-    """Recreate an error of another process.
-
-    Parameters
-    ----------
-    more
-        Text to append to the message of an error without a file.
-    """
-    kind = _KINDS[plain["kind"]]
-    if "place" in plain:
-        path, line, column, reason = plain["place"]
-        return input_error(path, reason, line=line, column=column, kind=kind)
-    return kind(plain["text"] + more)
-
-
-_KINDS: dict[str, Any] = {
-    kind.__name__: kind for kind in (FullDiskError, UnavailableError, InputError, TryAgainError, Error)
-}
 
 
 @contextmanager

@@ -6,8 +6,8 @@ Blender's process does not have SciPy, and a worker process can be stopped.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import asdict
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -71,16 +71,9 @@ def suggest(
         raise UsageError("--from: the run has no front in these hours; give a later time or more hours")
     problem, burning = make_problem(kept, parts, request)
     asked = suggestion.AllocationInput(kept, left, parts, burning, problem, line)
-    solved = worker.run(
-        f"{__name__}:solve_in_worker",
-        {"problem": problem.as_json(), "names": asked.names, "options": asdict(options)},
-        blender=False,
-        stop=stop,
-    )
-    answer = None if solved["answer"] is None else _from_json(solved["answer"])
-    rest = None if solved["rest"] is None else _plan_from_json(solved["rest"])
-    pairs = [Nearest(*each) for each in solved["nearest"]]
-    found = suggestion.describe(asked, answer, rest, pairs, solved["reasons"])
+    work = partial(solve_in_worker, problem, asked.names, options)
+    answer, rest, pairs, reasons = worker.run(work, blender=False, stop=stop)
+    found = suggestion.describe(asked, answer, rest, pairs, reasons)
     found["map"] = map_layer.make(asked, answer, found)
     return {"run": run.name, "from": times.iso(times.utc(run, order)), **found}
 
@@ -100,41 +93,21 @@ def default_order_time(run: Run) -> float:
 
 
 def solve_in_worker(
-    problem: dict[str, Any],
-    names: list[str],
-    options: dict[str, Any],
+    problem: Problem,
+    names: tuple[str, ...],
+    options: Options,
     progress: Progress = silent,
     tell: MessageCallback = no_message,
-) -> dict[str, Any]:
+) -> tuple[Answer | None, PartialPlan | None, list[Nearest], list[str]]:
     """Solve in the worker process, or find the reasons if it is infeasible."""
-    asked, chosen = Problem.from_json(problem), Options(**options)
-    answer = containment.solve(asked, chosen)
-    reasons: list[str] = []
-    rest = None
+    answer, rest, reasons = containment.solve(problem, options), None, []
     if answer is None:
-        reasons = shortfall.explain(asked, tuple(names), chosen)
+        reasons = shortfall.explain(problem, names, options)
         reasons = reasons or ["budget, line and standard response cannot be met together"]
     else:
-        containment.check(asked, answer)
-        rest = containment.plan_the_rest(asked, answer, chosen)
-    plain = None if answer is None else asdict(answer) | _lists(answer)
-    partial = None if rest is None else {name: getattr(rest, name).tolist() for name in _PLAN}
-    return {"answer": plain, "rest": partial, "nearest": nearest.pair_nearest(asked), "reasons": reasons}
-
-
-def _lists(answer: Answer) -> dict[str, Any]:
-    return {"division": answer.division.tolist(), "hour": answer.hour.tolist()}
-
-
-def _from_json(plain: dict[str, Any]) -> Answer:
-    return Answer(**plain | {name: np.array(plain[name], np.int64) for name in ("division", "hour")})
-
-
-_PLAN = ("division", "line")
-
-
-def _plan_from_json(plain: dict[str, Any]) -> PartialPlan:
-    return PartialPlan(np.array(plain["division"], np.int64), np.array(plain["line"], np.float64))
+        containment.check(problem, answer)
+        rest = containment.plan_the_rest(problem, answer, options)
+    return answer, rest, nearest.pair_nearest(problem), reasons
 
 
 def _limit_hours(run: Run, order: float, hours: int | None) -> int:

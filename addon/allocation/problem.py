@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field, fields, replace
-from typing import Any
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,25 +87,6 @@ class Problem:
     def of(self, wanted: str) -> NDArray[np.bool_]:
         """Return a mask (n,) of the resources of a type or kind."""
         return np.array([is_of(each, wanted) for each in self.types], bool)
-
-    def as_json(self) -> dict[str, Any]:
-        """Convert to JSON data."""
-        return {
-            name: value.tolist() if isinstance(value, np.ndarray) else value
-            for name, value in ((part.name, getattr(self, part.name)) for part in fields(self))
-        } | {"request": asdict(self.request)}
-
-    @classmethod
-    def from_json(cls, data: dict[str, Any]) -> Problem:
-        """Make a problem from the data of `as_json`."""
-        many = len(data["ids"]), len(data["perimeter"])
-        arrays = {name: np.array(data[name], np.float64) for name in _ARRAYS}
-        arrays["minutes"] = arrays["minutes"].reshape(many)
-        ids, types = (tuple(data[name]) for name in ("ids", "types"))
-        return cls(ids, types, request=Request(**data["request"]), **arrays)
-
-
-_ARRAYS = ("minutes", "rate", "cost", "hours", "perimeter", "loss")
 
 
 def set_escape_loss(request: Request, costs: Array) -> Request:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import tempfile
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 
 from .. import memory
@@ -38,10 +39,7 @@ def run(bench: Bench) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         sample.write(folder / "run", MODEL_TIMES, "npy")
-        results = {
-            tool: worker.run(f"{__name__}:draw", {"folder": name, "cull": tool == OURS, "tool": tool})
-            for tool in (OURS, ALL)
-        }
+        results = {tool: worker.run(partial(draw, name, tool == OURS, tool)) for tool in (OURS, ALL)}
         error = {
             tool: flip.evaluate(picture(name, ALL), picture(name, tool), "LDR")[1] for tool in (OURS, GRAIN)
         }

@@ -114,8 +114,7 @@ def _frame(bench: Bench) -> None:
     if flip is None:
         return
     with tempfile.TemporaryDirectory() as folder:
-        task = {"folder": folder}
-        results = worker.run(f"{__name__}:frames_in_blender", task)
+        results = worker.run(partial(frames_in_blender, folder))
         exact = _picture(Path(folder), REFERENCE)
         errors = {name: flip.evaluate(exact, _picture(Path(folder), name), "LDR")[1] for name in results}
     for name, spent in results.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +23,10 @@ def read(path: Path, progress: Progress, rate: tuple[int, int]) -> ForeignScene:
     InputError, Error
         The file cannot be read.
     """
-    return foreign.read(path, f"{__name__}:in_blender", progress, rate=rate)
+    return foreign.read(partial(in_blender, path.absolute(), rate), progress)
 
 
-def in_blender(path: str, rate: tuple[int, int], progress: Progress, tell: MessageCallback) -> dict[str, Any]:
+def in_blender(path: Path, rate: tuple[int, int], progress: Progress, tell: MessageCallback) -> ForeignScene:
     """Import a file into an empty scene, and sample its cameras (see `ForeignScene`)."""
     from fractions import Fraction
 
@@ -38,14 +39,14 @@ def in_blender(path: str, rate: tuple[int, int], progress: Progress, tell: Messa
     scene = bpy.context.scene
     compat.set_frame_rate(scene.render, Fraction(*rate))
     try:
-        bpy.ops.wm.alembic_import(filepath=path, set_frame_range=True, as_background_job=False)
+        bpy.ops.wm.alembic_import(filepath=str(path), set_frame_range=True, as_background_job=False)
     except RuntimeError as error:
-        raise input_error(Path(path), f"cannot be read as Alembic: {str(error).strip()[:200]}") from None
+        raise input_error(path, f"cannot be read as Alembic: {str(error).strip()[:200]}") from None
     if not scene.objects:  # the importer finishes without an error
-        raise input_error(Path(path), "is empty or not an Alembic file; export it again")
+        raise input_error(path, "is empty or not an Alembic file; export it again")
     first, last = scene.frame_start, scene.frame_end
     if last - first > CAMERA_FRAMES:
-        raise input_error(Path(path), f"has more than {CAMERA_FRAMES:,} frames")
+        raise input_error(path, f"has more than {CAMERA_FRAMES:,} frames")
     cameras = [each for each in scene.objects if each.type == "CAMERA"]
     matrices: dict[str, list[Any]] = {each.name: [] for each in cameras}
     for frame in range(first, last + 1):
@@ -54,19 +55,16 @@ def in_blender(path: str, rate: tuple[int, int], progress: Progress, tell: Messa
             matrices[camera.name].append(np.array(camera.matrix_world).tolist())
         progress(frame - first + 1, last - first + 1)
     frames = list(map(float, range(first, last + 1)))
-    return {
-        "rate": rate[0] / rate[1],
-        "origin": None,
-        "cameras": [
-            {
-                "name": each.name,
-                "frames": frames,
-                "matrix": matrices[each.name],
-                "half": [0.5 * each.data.sensor_width / each.data.lens] * len(frames),
-                "sensor": each.data.sensor_width,
-            }
-            for each in cameras
-            if each.data.type == "PERSP"
-        ],
-        "omitted": [each.name for each in cameras if each.data.type != "PERSP"],
-    }
+    filmed = [
+        {
+            "name": each.name,
+            "frames": frames,
+            "matrix": matrices[each.name],
+            "half": [0.5 * each.data.sensor_width / each.data.lens] * len(frames),
+            "sensor": each.data.sensor_width,
+        }
+        for each in cameras
+        if each.data.type == "PERSP"
+    ]
+    omitted = [each.name for each in cameras if each.data.type != "PERSP"]
+    return ForeignScene(rate[0] / rate[1], None, filmed, omitted)

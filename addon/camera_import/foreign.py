@@ -1,4 +1,4 @@
-"""Cameras of foreign scenes, as a job in Blender returns them: plain values, for JSON.
+"""Cameras of foreign scenes, as a job in Blender returns them.
 
 The axes of a scene are right-handed with z up, in metres. Cameras look along -z, with y up.
 """
@@ -51,18 +51,15 @@ class ForeignScene:
         return [_move(path, camera, self.rate, matrix) for camera in self.cameras]
 
 
-def read(path: Path, job: str, progress: Progress, **options: Any) -> ForeignScene:
-    """Read a file by a job in a separate process, which a damaged file may crash.
+def read(work: worker.Work[ForeignScene], progress: Progress) -> ForeignScene:
+    """Read a file in a separate process, which a damaged file may crash.
 
     Raises
     ------
     InputError, Error
         The file cannot be read.
     """
-    task = {"path": str(path.absolute()), **options}
-    found = worker.run(job, task, progress, patience=PATIENCE)
-    origin = found["origin"]
-    return ForeignScene(found["rate"], tuple(origin) if origin else None, found["cameras"], found["omitted"])
+    return worker.run(work, progress, patience=PATIENCE)
 
 
 def _move(path: Path, camera: dict[str, Any], rate: float, matrix: Array) -> Move:

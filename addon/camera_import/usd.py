@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,10 +27,10 @@ def read(path: Path, progress: Progress) -> ForeignScene:
     InputError, Error
         The stage cannot be read.
     """
-    return foreign.read(path, f"{__name__}:in_blender", progress)
+    return foreign.read(partial(in_blender, path.absolute()), progress)
 
 
-def in_blender(path: str, progress: Progress, tell: MessageCallback) -> dict[str, Any]:
+def in_blender(path: Path, progress: Progress, tell: MessageCallback) -> ForeignScene:
     """Read a stage without its payloads (see `ForeignScene`)."""
     import bpy
 
@@ -43,27 +44,27 @@ def in_blender(path: str, progress: Progress, tell: MessageCallback) -> dict[str
         ) from None
 
     try:
-        stage = Usd.Stage.Open(path, Usd.Stage.LoadNone)
+        stage = Usd.Stage.Open(str(path), Usd.Stage.LoadNone)
     except Tf.ErrorException as error:
         reason = str(error.args[0].commentary).replace(f"{path}:", "line ").partition("\n")[0][:300]
-        raise input_error(Path(path), f"cannot be opened as a USD stage: {reason}") from None
+        raise input_error(path, f"cannot be opened as a USD stage: {reason}") from None
     unit, rate = UsdGeom.GetStageMetersPerUnit(stage), stage.GetTimeCodesPerSecond()
     if not (_LEAST_UNIT < unit < 1.0 / _LEAST_UNIT and 0.0 < rate < 1.0e6):
-        raise input_error(Path(path), "has no valid metersPerUnit or timeCodesPerSecond")
+        raise input_error(path, "has no valid metersPerUnit or timeCodesPerSecond")
     upright = _Z_UP if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y else np.eye(4)
-    content: dict[str, Any] = {"rate": rate, "origin": None, "cameras": [], "omitted": []}
+    origin, cameras, omitted = None, [], []
     for prim in stage.Traverse():
         if prim.GetTypeName() == "CesiumGeoreferencePrim":
             values = [prim.GetAttribute(name).Get() for name in _ORIGIN]
-            content["origin"] = None if None in values else list(map(float, values))
+            origin = None if None in values else (float(values[0]), float(values[1]), float(values[2]))
         elif prim.IsA(UsdGeom.Camera):
             camera = UsdGeom.Camera(prim)
             orthographic = camera.GetProjectionAttr().Get() == UsdGeom.Tokens.orthographic
             if orthographic or prim.GetCustomDataByKey("firetwin:projection") == "panorama":
-                content["omitted"].append(_name(prim))
+                omitted.append(_name(prim))
             else:
-                content["cameras"].append(_sample(Path(path), prim, camera, unit, upright))
-    return content
+                cameras.append(_sample(path, prim, camera, unit, upright))
+    return ForeignScene(rate, origin, cameras, omitted)
 
 
 def _name(prim: Any) -> str:

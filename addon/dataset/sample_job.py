@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import base64
 import json
-import pickle
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -35,20 +34,16 @@ def make(
     The worker gets the plan and the draws themselves: drawing them again takes time, and the file of the plan
     can have changed.
     """
-    task = {
-        "work": base64.b64encode(pickle.dumps((plan, visit))).decode(),
-        "missing": list(missing),
-        "out": str(out.absolute()),
-    }
-    worker.run(f"{__name__}:in_blender", task, progress, tell=tell)
+    worker.run(partial(in_blender, plan, visit, missing, out.absolute()), progress, tell=tell)
 
 
-def in_blender(work: str, missing: list[int], out: str, progress: Progress, tell: MessageCallback) -> None:
+def in_blender(
+    plan: Plan, visit: Visit, missing: Sequence[int], folder: Path, progress: Progress, tell: MessageCallback
+) -> None:
     """Make samples; worker side."""
     from . import labels, render_samples, sensor, survey
 
-    plan, visit = _unpacked(work)
-    planned, folder = plan.run(visit.draws[0].run), Path(out)
+    planned = plan.run(visit.draws[0].run)
     scene = RunScene(planned)
     source = _source(scene, planned, folder)
     progress(0, len(missing), produce.SAMPLES)
@@ -70,11 +65,6 @@ def in_blender(work: str, missing: list[int], out: str, progress: Progress, tell
         cost = produce.cost_file(folder, drawn.index)
         firetwin_files.write_text(cost, json.dumps(rendered.facts) + "\n")
         progress(done, len(missing), produce.SAMPLES)
-
-
-def _unpacked(work: str) -> tuple[Plan, Visit]:
-    plan, visit = pickle.loads(base64.b64decode(work))
-    return plan, visit
 
 
 def _source(scene: RunScene, planned: PlanRun, out: Path) -> dict[str, Any]:

@@ -7,10 +7,9 @@ divided by the frames per second. Positions are in single precision: 1 mm at 16 
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from ..jobs import worker
 from ..progress import MessageCallback, Progress
@@ -29,33 +28,17 @@ def write(request: ExportRequest) -> list[Path]:
     if omitted := [track.name for track in found if track.projection != "perspective"]:
         request.tell(f"omitted cameras that are not perspective: {', '.join(omitted)}")
     path, rate = request.folder / NAME, request.shot.settings.time.rate
-    task = {
-        "path": str(path),
-        "rate": [rate.numerator, rate.denominator],
-        "span": [min(request.frames), max(request.frames)],
-        "cameras": [_plain(track) for track in found if track.projection == "perspective"],
-    }
-    worker.run(f"{__name__}:in_blender", task, request.progress, stop=request.stop)
+    filmed = [track for track in found if track.projection == "perspective"]
+    work = partial(in_blender, path, rate, (min(request.frames), max(request.frames)), filmed)
+    worker.run(work, request.progress, stop=request.stop)
     return [path]
 
 
-def _plain(track: Track) -> dict[str, Any]:
-    matrix = np.tile(np.eye(4), (len(track.frames), 1, 1))
-    matrix[:, :3, :3], matrix[:, :3, 3] = track.rotation, track.position
-    return {
-        "name": track.name,
-        "frames": track.frames.tolist(),
-        "matrix": matrix.tolist(),
-        "focal": track.focal.tolist(),
-        "sensor": [track.sensor, track.sensor * track.aspect],
-    }
-
-
 def in_blender(
-    path: str,
-    rate: list[int],
-    span: list[int],
-    cameras: list[dict[str, Any]],
+    path: Path,
+    rate: Fraction,
+    span: tuple[int, int],
+    cameras: list[Track],
     progress: Progress,
     tell: MessageCallback,
 ) -> None:
@@ -67,32 +50,36 @@ def in_blender(
     compat.require_alembic()
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene = bpy.context.scene
-    compat.set_frame_rate(scene.render, Fraction(*rate))
+    compat.set_frame_rate(scene.render, rate)
     scene.frame_start, scene.frame_end = span
     for done, camera in enumerate(cameras, 1):
         _add(scene, camera)
         progress(done, len(cameras))
-    bpy.ops.wm.alembic_export(filepath=path, start=span[0], end=span[1], as_background_job=False)
+    bpy.ops.wm.alembic_export(filepath=str(path), start=span[0], end=span[1], as_background_job=False)
 
 
-def _add(scene: Any, camera: dict[str, Any]) -> None:
+def _add(scene: Any, camera: Track) -> None:
     """Add a camera with a key in each frame."""
     import bpy
     from mathutils import Matrix
 
-    data = bpy.data.cameras.new(camera["name"])
-    made = bpy.data.objects.new(camera["name"], data)
+    data = bpy.data.cameras.new(camera.name)
+    made = bpy.data.objects.new(camera.name, data)
     scene.collection.objects.link(made)
     data.sensor_fit = "HORIZONTAL"
-    data.sensor_width, data.sensor_height = camera["sensor"]
+    data.sensor_width = camera.sensor
+    data.sensor_height = camera.sensor * camera.aspect
     made.rotation_mode = "QUATERNION"
     before = None
-    for frame, matrix, focal in zip(camera["frames"], camera["matrix"], camera["focal"], strict=True):
-        made.location, rotation, _ = Matrix(matrix).decompose()
+    for number, focal, place, axes in zip(
+        camera.frames, camera.focal, camera.position, camera.rotation, strict=True
+    ):
+        frame, rotation = int(number), Matrix(axes.tolist()).to_quaternion()
+        made.location = place.tolist()
         if before is not None:
             rotation.make_compatible(before)
         made.rotation_quaternion = before = rotation
-        data.lens = focal
+        data.lens = float(focal)
         for path in ("location", "rotation_quaternion"):
             made.keyframe_insert(path, frame=frame)
         data.keyframe_insert("lens", frame=frame)

@@ -7,14 +7,14 @@ It can have ``check_blender()``, which raises an Error if this Blender cannot wr
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .. import plugins
 from ..jobs import worker
 from ..jobs.tiles import imagery, selection
-from ..progress import MessageCallback, Progress
-from ..shot.source import ShotSource
+from ..progress import MessageCallback, Progress, no_message, silent
 from . import formats
 from .request import ExportRequest
 
@@ -35,27 +35,16 @@ def run(request: ExportRequest) -> list[Path]:
     source = request.source
     selection.prepare(source, (), request.progress, request.tell, request.stop, uses=[_TILES])
     imagery.prepare(source, (), request.progress, request.tell, request.stop)
-    options = {
-        "name": request.name,
-        "folder": str(request.folder),
-        "frame_list": request.frame_list,
-        "geoid_m": request.geoid_m,
-        "smoke": request.smoke,
-    }
-    task = {"choice": source.plain(), "options": options}
-    names = worker.run(f"{__name__}:in_blender", task, request.progress, stop=request.stop, tell=request.tell)
-    return [request.folder / name for name in names]
+    alone = replace(request, progress=silent, tell=no_message, stop=None)
+    return worker.run(partial(in_blender, alone), request.progress, stop=request.stop, tell=request.tell)
 
 
-def in_blender(
-    choice: dict[str, str], options: dict[str, Any], progress: Progress, tell: MessageCallback
-) -> list[str]:
-    """Build the scene and write it; worker side. Returns names of the main files in the folder."""
+def in_blender(request: ExportRequest, progress: Progress, tell: MessageCallback) -> list[Path]:
+    """Build the scene and write it; worker side. Returns the main files."""
     from ..jobs import worker_scene
     from . import read_scene
 
-    options["folder"] = Path(options["folder"])
-    request = ExportRequest(ShotSource(**choice), **options, progress=progress, tell=tell)
+    request = replace(request, progress=progress, tell=tell)
     module = plugins.module(__package__, request.name)
     if hasattr(module, "check_blender"):
         module.check_blender()
@@ -65,8 +54,7 @@ def in_blender(
     wanted = request.smoke and shot.settings.smoke.enabled and formats.known()[request.name].has_smoke
     volumes = _write_volumes(request) if wanted else []
     stage = worker_scene.build_scene(shot, progress, tell)
-    made = module.write_content(read_scene.read(shot, stage, request.frames, volumes), request)
-    return [path.relative_to(request.folder).as_posix() for path in made]
+    return module.write_content(read_scene.read(shot, stage, request.frames, volumes), request)
 
 
 def _write_volumes(request: ExportRequest) -> list[SmokeLayer]:

@@ -126,9 +126,9 @@ def _bake(job: Job, choice: ShotSource, task: Task, progress: Progress) -> None:
     """Solve the flow of a view; an interrupted solution continues."""
     (view,) = task.cameras
     frames = FrameList(task.frames).frames(job.count)
-    about = {"choice": choice.plain(), "view": view, "frames": frames}
+    work = functools.partial(solve.in_process, choice, view, frames)
     try:
-        worker.run(f"{solve.__name__}:in_process", about, progress, tell=say, blender=False)
+        worker.run(work, progress, tell=say, blender=False)
     except worker.EndedError as error:
         raise Error(f"the bake {error}; if memory ran out, choose larger voxels") from None
 

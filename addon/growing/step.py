@@ -7,10 +7,9 @@ fail. Files are closed at the end of the step.
 from __future__ import annotations
 
 import os
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
 from ..errors import Error, input_error
 from ..run.models.model import Model, Options
@@ -48,15 +47,6 @@ class Outcome:
     restarted: str = ""
     tried: dict[str, str] = field(default_factory=dict)
     message: str = ""
-
-    def plain(self) -> dict[str, Any]:
-        """Convert to plain data for another process."""
-        return asdict(self)
-
-    @classmethod
-    def of(cls, found: dict[str, Any]) -> Outcome:
-        """Create from plain data."""
-        return cls(**found | {"new": [Accepted(**each) for each in found["new"]]})
 
 
 def run(

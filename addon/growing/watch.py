@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -143,25 +144,27 @@ class _Watch:
     def _step(self, log: model_log.ModelLog, stable: list[str], ended: bool) -> None:
         """Read the files in a worker process, and report its outcome."""
         request = self.request
-        task = {
-            "source": str(request.source.absolute()),
-            "extra": [str(each.absolute()) for each in request.extra],
-            "out": str(request.out.absolute()),
-            "options": [request.start, request.at, request.projection, request.name, request.zone],
-            "logged": log.written,
-            "stable": [str(Path(path).absolute()) for path in stable],
-            "ended": ended,
-            "tried": self.outcome.tried,
-        }
+        work = partial(
+            in_process,
+            replace(
+                request,
+                source=request.source.absolute(),
+                extra=tuple(each.absolute() for each in request.extra),
+                out=request.out.absolute(),
+            ),
+            log.written,
+            [str(Path(path).absolute()) for path in stable],
+            ended,
+            self.outcome.tried,
+        )
         try:
-            found = worker.run(f"{__name__}:in_process", task, blender=False, patience=_PATIENCE)
+            self.outcome = worker.run(work, blender=False, patience=_PATIENCE)
         except (Error, worker.EndedError) as error:
             self.outcome = Outcome(tried=self.outcome.tried, message=str(error))
             if self.message != str(error):
                 self.tell(f"not readable yet: {error}")
             self.message = str(error)
             return
-        self.outcome = Outcome.of(found)
         self.message = ""
         if self.outcome.restarted:
             self.restarted = True
@@ -199,25 +202,20 @@ class _Watch:
 
 
 def in_process(
-    source: str,
-    extra: list[str],
-    out: str,
-    options: list[str],
+    request: WatchRequest,
     logged: dict[str, int],
     stable: list[str],
     ended: bool,
     tried: dict[str, str],
     progress: Progress = silent,
     tell: MessageCallback = no_message,
-) -> dict[str, Any]:
+) -> Outcome:
     """Worker side of a step."""
-    from ..run.models import heartbeat
     from ..run.models.model import Options
     from . import step
 
-    start, at, projection, name, zone = options
-    further = [Path(each) for each in extra]
-    chosen = Options.of(start, at, projection, 0.0, further, name, zone)
-    with heartbeat.to(lambda: worker.send_heartbeat()):
-        outcome = step.run(Path(source), further, Path(out), chosen, logged, stable, ended, tried)
-    return outcome.plain()
+    further = list(request.extra)
+    options = Options.of(
+        request.start, request.at, request.projection, 0.0, further, request.name, request.zone
+    )
+    return step.run(request.source, further, request.out, options, logged, stable, ended, tried)

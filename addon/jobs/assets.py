@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import uuid
+from functools import partial
 from pathlib import Path
 
 from .. import files
@@ -78,8 +79,7 @@ def run(
         raise input_error(out, f"cannot be made ({error.strerror}); choose another folder") from None
     with notify_if_slow(READING):
         choice.shot()
-    task = {"choice": choice.plain(), "out": str(out / BLEND)}
-    count = worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)
+    count = worker.run(partial(in_blender, choice, out / BLEND), progress, stop=stop, tell=tell)
     files.write_text(out / CATALOGUE, catalogue())
     return count
 
@@ -91,7 +91,7 @@ def _refuse_strangers(out: Path) -> None:
         raise input_error(there, "belongs to another asset library; choose another folder")
 
 
-def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: MessageCallback) -> int:
+def in_blender(choice: ShotSource, out: Path, progress: Progress, tell: MessageCallback) -> int:
     """Create the assets in an empty Blender, and save them."""
     import bpy
 
@@ -100,8 +100,8 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Messa
     from ..scene import assets
 
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    shot = ShotSource(**choice).shot()
+    shot = choice.shot()
     groups.build(shot.settings, owned.adopt(bpy.context.scene))
     count = assets.build(shot, identifier, progress)
-    save(Path(out))
+    save(out)
     return count

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from ..errors import Error
@@ -47,36 +48,35 @@ def run(
         shot = choice.shot()
     if not shot.settings.smoke.enabled:
         return []
-    task = {"choice": choice.plain(), "volumes": volumes, "frames": None if frames is None else list(frames)}
+    work = partial(in_process, choice, volumes, frames)
     try:
-        places = worker.run(f"{__name__}:in_process", task, progress, stop=stop, tell=tell, blender=False)
+        return worker.run(work, progress, stop=stop, tell=tell, blender=False)
     except worker.EndedError as error:
         raise Error(f"the bake {error}; if memory ran out, larger voxels need less") from None
-    return [Path(place) for place in places]
 
 
 def in_process(
-    choice: dict[str, str],
+    choice: ShotSource,
     volumes: bool,
-    frames: list[int] | None,
+    frames: Sequence[int] | None,
     progress: Progress,
     tell: MessageCallback,
-) -> list[str]:
+) -> list[Path]:
     """Prepare the smoke and return its folders."""
     from ..smoke import plume_mass
 
-    shot = ShotSource(**choice).shot()
+    shot = choice.shot()
     for text in shot.warnings():
         tell(text)
     shots = [shot] if volumes else [for_view(shot, view) for view in scene_runs.views(shot.settings)]
     made = [place for each in shots for place in _prepare(each, volumes, frames, progress, tell)]
     if frames is None:
         tell(plume_mass.describe(shot))
-    return [str(place) for place in dict.fromkeys(made)]
+    return list(dict.fromkeys(made))
 
 
 def _prepare(
-    shot: Shot, volumes: bool, frames: list[int] | None, progress: Progress, tell: MessageCallback
+    shot: Shot, volumes: bool, frames: Sequence[int] | None, progress: Progress, tell: MessageCallback
 ) -> list[Path]:
     """Write the volumes of a shot, or solve its flow if that is all that `render` needs."""
     from ..smoke import bake, sources

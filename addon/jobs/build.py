@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -55,8 +56,8 @@ def run(
     pack = ("pack", "the .blend file (render makes pictures without one)")
     selection.prepare(choice, (), progress, tell, stop, access, [pack])
     imagery.prepare(choice, (), progress, tell, stop, access)
-    task = {"choice": choice.plain(), "out": str(out), "volumes": volumes, "live": live}
-    missing = worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)
+    work = partial(in_blender, choice, out, volumes, live)
+    missing = worker.run(work, progress, stop=stop, tell=tell)
     if missing:
         scene, have = choice.scene or choice.run, "has" if missing == 1 else "have"
         tell(
@@ -82,7 +83,7 @@ def _writable(out: Path) -> None:
 
 
 def in_blender(
-    choice: dict[str, str], out: str, volumes: bool, live: bool, progress: Progress, tell: MessageCallback
+    choice: ShotSource, out: Path, volumes: bool, live: bool, progress: Progress, tell: MessageCallback
 ) -> int:
     """Build the scene and save it; return the number of frames whose smoke volume is missing."""
     from ..blender import viewport
@@ -93,22 +94,21 @@ def in_blender(
     from ..smoke import bake
     from . import worker_scene
 
-    source = ShotSource(**choice)
-    shot = source.shot()
+    shot = choice.shot()
     for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings.cameras)):
         tell(text)
     if volumes and shot.settings.smoke.enabled:
         bake.bake(shot, progress)
     stage = worker_scene.build_scene(shot, progress, tell)
-    volume_files.store_source(stage, scene_file.portable(source.settings()), source.beside)
+    volume_files.store_source(stage, scene_file.portable(choice.settings()), choice.beside)
     landmarks = built.landmarks_text(station_signs.find_moving_points(shot))
     built.store(stage, built.gather(shot, landmarks))
     notice.build(shot, stage)
     if live:
         _build_live(shot, stage.scene, progress, tell)
     viewport.prepare_file()
-    volume_files.make_paths_relative(Path(out))
-    save(Path(out), relative_remap=False)
+    volume_files.make_paths_relative(out)
+    save(out, relative_remap=False)
     filmed = bake.shot_frames(shot) if shot.settings.smoke.enabled else ()
     return len(volume_files.missing(stage, filmed))
 

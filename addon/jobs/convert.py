@@ -6,7 +6,7 @@ import hashlib
 import itertools
 import os
 import tomllib
-from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from ..errors import Error, input_error, reading
@@ -55,11 +55,12 @@ def run(
     from ..run.readers import gathered
 
     files = paths if member else gathered(paths)
-    forecast = [str(path.absolute()) for path in gathered(wind)] if wind else []
+    forecast = [path.absolute() for path in gathered(wind)] if wind else []
     Options.of(start, at, projection, interval, files, name, zone)
     write.check(out)
     options = [start, at, projection, interval, name, zone]
-    _run("in_process", files, out, options, progress, tell, stop, member=member, wind=forecast)
+    work = partial(in_process, _absolute(files), out.absolute(), options, member=member, wind=forecast)
+    _run(work, paths[0], progress, tell, stop)
     return out
 
 
@@ -99,52 +100,50 @@ def run_members(
     Options.of(start, at, projection, 0.0, [], name, zone)
     write.check(out)
     options = [start, at, projection, horizon, name, zone]
-    _run("members_in_process", paths, out, options, progress, tell, stop)
+    work = partial(members_in_process, _absolute(paths), out.absolute(), options)
+    _run(work, paths[0], progress, tell, stop)
     return out
 
 
+def _absolute(paths: list[Path]) -> list[Path]:
+    return [path.absolute() for path in paths]
+
+
 def _run(
-    function: str,
-    paths: list[Path],
-    out: Path,
-    options: list,
-    progress: Progress,
-    tell: MessageCallback,
-    stop: worker.Stop | None,
-    **more: str | list[str],
+    work: worker.Work[None], path: Path, progress: Progress, tell: MessageCallback, stop: worker.Stop | None
 ) -> None:
-    """Call a function of this module in a worker process, with paths, output, options and `more`.
+    """Work in a worker process.
 
     Raises
     ------
     Error
-        The process ended in another way than by an error: a file is most likely damaged.
+        The process ended in another way than by an error: the file at `path` is most likely damaged.
     """
-    task = {"paths": [str(path.absolute()) for path in paths], "out": str(out.absolute()), "options": options}
-    called = f"{__name__}:{function}"
     try:
-        worker.run(called, task | more, progress, stop=stop, tell=tell, blender=False, patience=PATIENCE)
+        worker.run(work, progress, stop=stop, tell=tell, blender=False, patience=PATIENCE)
     except worker.EndedError as error:
-        raise Error(f"{paths[0]}: reading it {error}; the file is most likely damaged") from None
+        raise Error(f"{path}: reading it {error}; the file is most likely damaged") from None
 
 
 def members_in_process(
-    paths: list[str], out: str, options: list, progress: Progress = silent, tell: MessageCallback = no_message
+    files: list[Path],
+    out: Path,
+    options: list,
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
 ) -> None:
     """Worker side: gather runs, or select the reader, read and write."""
     from ..run.ensemble import gather, member_set, readers
-    from ..run.models import heartbeat
     from ..run.models.model import Options
 
     start, at, projection, horizon, name, zone = options
-    files = [Path(path) for path in paths]
-    with heartbeat.to(lambda: worker.send_heartbeat()), reading(files[0]):
+    with reading(files[0]):
         if len(files) == 1 and gather.sniff(files[0]):
-            made, notes = gather.convert(files[0], Path(out), horizon), []
+            made, notes = gather.convert(files[0], out, horizon), []
         else:
             said = Options.of(start, at, projection, 0.0, [], name, zone)
             found = readers.read(files, said, horizon)
-            made, notes = member_set.save(found, Path(out), files[0]), found.notes
+            made, notes = member_set.save(found, out, files[0]), found.notes
     total, issued = len(made.members) + len(made.left_out), ""
     if made.issued:
         issued = f" after {made.issued:%Y-%m-%d %H:%M} UTC"
@@ -197,31 +196,15 @@ def _made_of(out: Path) -> str:
 
 
 def in_process(
-    paths: list[str],
-    out: str,
+    files: list[Path],
+    out: Path,
     options: list,
     progress: Progress = silent,
     tell: MessageCallback = no_message,
     member: str = "",
-    wind: Sequence[str] = (),
+    wind: list[Path] | None = None,
 ) -> None:
     """Worker side: select the reader, read and write."""
-    from ..run.models import heartbeat
-
-    files, forecast = ([Path(path) for path in each] for each in (paths, wind))
-    with heartbeat.to(lambda: worker.send_heartbeat()):
-        _convert(files, Path(out), options, progress, tell, member, forecast)
-
-
-def _convert(
-    files: list[Path],
-    out: Path,
-    options: list,
-    progress: Progress,
-    tell: MessageCallback,
-    member: str,
-    wind: list[Path],
-) -> None:
     from ..run import readers
     from ..run.ensemble import member_run
     from ..run.models import forecast_wind, write
@@ -241,7 +224,7 @@ def _convert(
         try:
             if wind:
                 forecast_wind.add(model, wind)
-            write.write(model, out, _fingerprint([*files, *wind], options), progress)
+            write.write(model, out, _fingerprint([*files, *(wind or [])], options), progress)
         finally:
             model.close()
     for text in [*model.assumptions, *write.moved(model)]:

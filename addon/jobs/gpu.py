@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from functools import partial
 
 from ..errors import TryAgainError
 from ..progress import MessageCallback, Progress, no_message, silent, size
@@ -14,17 +14,17 @@ NONE = "Cycles finds no GPU here"
 
 def describe(tell: MessageCallback = no_message) -> list[str]:
     """Describe each GPU, the state of its kernels, and the kernel caches, a line each."""
-    return worker.run(f"{__name__}:describe_in_blender", {}, tell=tell)
+    return worker.run(describe_in_blender, tell=tell)
 
 
 def warm(tell: MessageCallback, stop: worker.Stop | None = None) -> list[str]:
     """Compile the kernels of all GPUs into the driver's cache; return the same lines as `describe`."""
-    return worker.run(f"{__name__}:warm_in_blender", {}, tell=tell, stop=stop)
+    return worker.run(warm_in_blender, tell=tell, stop=stop)
 
 
 def make_kernels(architecture: str, tell: MessageCallback) -> list[str]:
     """Make Cycles' kernels for an architecture; return the file."""
-    return worker.run(f"{__name__}:make_in_blender", {"architecture": architecture}, tell=tell)
+    return worker.run(partial(make_in_blender, architecture), tell=tell)
 
 
 def describe_in_blender(progress: Progress = silent, tell: MessageCallback = no_message) -> list[str]:
@@ -80,7 +80,7 @@ def warm_in_blender(progress: Progress = silent, tell: MessageCallback = no_mess
     return describe_in_blender()
 
 
-def make_in_blender(architecture: str, progress: Progress, tell: MessageCallback) -> list[Any]:
+def make_in_blender(architecture: str, progress: Progress, tell: MessageCallback) -> list[str]:
     """Make kernels for an architecture with Blender's own intermediate text."""
     from ..gpu import kernels
 

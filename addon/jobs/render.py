@@ -5,9 +5,10 @@ from __future__ import annotations
 import contextlib
 import itertools
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .. import memory
 from ..errors import Error
@@ -20,6 +21,15 @@ from . import solve, worker
 from .tiles import imagery, selection
 from .tiles.access import TileAccess
 
+if TYPE_CHECKING:
+    from ..blender.devices import Gpus
+    from ..blender.owned import Stage
+    from ..render.fingerprint import Fingerprints
+    from ..render.picture import Picture
+    from ..render.sharing import RenderSession
+    from ..render.store import Store
+
+Result = TypeVar("Result")
 Selection = tuple[str | None, str | tuple[str, ...] | None, str | None]
 """Frames, camera and passes, as `render.plan.pictures` takes them."""
 
@@ -80,71 +90,98 @@ def run(
     shot
         Shot of `choice`, if already resolved.
     """
-    from ..errors import UsageError
-    from ..render import changes, dataset, exr_clock, films, fingerprint, former_names, plan
+    from ..render import dataset, fingerprint, plan
     from ..render.store import Store
-    from ..run.readers import folder
 
     out = asked.out
-    if folder.sniff(out):  # a camera's folder may have the name of a field
-        raise UsageError(
-            f"--out: {out} is a run folder, and pictures do not belong among its fields; choose another"
-        )
-    if renamed := former_names.rename(out):
-        tell(f"renamed {count(renamed, 'file')}: @ in the names of views is now _at_")
+    _prepare_folder(out, tell)
     with notify_if_slow(READING):
         shot = shot or choice.shot()
         wanted = plan.pictures(shot, *asked.selection())
     prepare_tiles(choice, wanted, asked, progress, tell, stop)  # fingerprints include the selection
     made_with = fingerprint.compute(shot, wanted, progress)
     with Store(out) as store:
-        undone = plan.missing(store, wanted, made_with)
-        finished = len(wanted) - len(undone)
-        if asked.resume and (text := exr_clock.update(shot, store, set(wanted) - set(undone), made_with)):
-            tell(text)
         begun = store.latest_number()
-        differing = changes.of_pictures(store, undone, made_with) if asked.resume else []
-        if asked.films and (kept := films.left_over(shot, store, made_with)):
-            tell(f"films of other settings: {' and '.join(kept)}; delete them if you do not need them")
-        filming = films.changes_of(shot, store, made_with) if asked.films and not undone else []
-        if not undone and asked.resume and not filming:
-            tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match; nothing to render")
+        undone, filming = _compare(store, shot, wanted, made_with, asked, tell)
+        if not undone and not filming:
             store.export()
             return RenderResult(0)
-    if asked.resume and finished:
-        tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match")
-    elif finished:
-        tell(f"rendering {count(finished, 'picture')} again that match; --resume would keep them")
-    if differing:
-        tell(f"finished pictures are rendered again; they differ in {changes.join_names(differing)}")
-    if asked.resume and filming:
-        tell(changes.describe_films(filming))
-    undone = undone if asked.resume else wanted
     if undone:
         views = list(dict.fromkeys(picture.camera for picture in undone))
         tell(f"rendering {count(len(undone), 'picture')} of {' and '.join(views)}")
         tell(shot.describe_film())
         imagery.prepare(choice, views, progress, tell, stop, asked.access)
-    task = {
-        "choice": choice.plain(),
-        "filmed": [list(pair) for pair in made_with],
-        "begun": begun,
-        "resume": asked.resume,
-        "selection": asked.selection(),
-        "films": asked.films,
-    }
+    job = partial(in_blender, choice, replace(asked, out=out.absolute()), set(made_with), begun)
     with Store(out, create=True) as store:
-        took = make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
+        result = make(job, undone, store, shot, progress, tell, stop)
         dataset.write(store)
-    result = RenderResult(**took)
     if others := len(undone) - result.pictures:
         tell(f"another render made {others} of these {count(len(undone), 'picture')}")
     return result
 
 
+def _prepare_folder(out: Path, tell: MessageCallback) -> None:
+    """Check that a folder can take pictures, and rename its files of former versions.
+
+    Raises
+    ------
+    UsageError
+        The folder is a run.
+    """
+    from ..errors import UsageError
+    from ..render import former_names
+    from ..run.readers import folder
+
+    if folder.sniff(out):  # a camera's folder may have the name of a field
+        raise UsageError(
+            f"--out: {out} is a run folder, and pictures do not belong among its fields; choose another"
+        )
+    if renamed := former_names.rename(out):
+        tell(f"renamed {count(renamed, 'file')}: @ in the names of views is now _at_")
+
+
+def _compare(
+    store: Store,
+    shot: Shot,
+    wanted: list[Picture],
+    made_with: Fingerprints,
+    asked: RenderRequest,
+    tell: MessageCallback,
+) -> tuple[list[Picture], list[tuple[str, list[str]]]]:
+    """Compare the finished pictures and films with the request, and describe the differences.
+
+    Returns
+    -------
+    Pictures to render, and films to encode if no picture is rendered: path, and reasons.
+    """
+    from ..render import changes, exr_clock, films, plan
+
+    undone = plan.missing(store, wanted, made_with)
+    finished = f"{len(wanted) - len(undone)} of {count(len(wanted), 'picture')} are finished and match"
+    if asked.resume and (text := exr_clock.update(shot, store, set(wanted) - set(undone), made_with)):
+        tell(text)
+    differing = changes.of_pictures(store, undone, made_with) if asked.resume else []
+    if asked.films and (kept := films.left_over(shot, store, made_with)):
+        tell(f"films of other settings: {' and '.join(kept)}; delete them if you do not need them")
+    filming = films.changes_of(shot, store, made_with) if asked.films and not undone else []
+    if not asked.resume:
+        if again := len(wanted) - len(undone):
+            tell(f"rendering {count(again, 'picture')} again that match; --resume would keep them")
+        return wanted, filming
+    if not undone and not filming:
+        tell(f"{finished}; nothing to render")
+    elif len(undone) < len(wanted):
+        tell(finished)
+    if differing:
+        tell(f"finished pictures are rendered again; they differ in {changes.join_names(differing)}")
+    if filming:
+        tell(changes.describe_films(filming))
+    return undone, filming
+
+
 def prepare_tiles(
     choice: ShotSource,
-    wanted: list[Any],
+    wanted: list[Picture],
     asked: RenderRequest,
     progress: Progress = silent,
     tell: MessageCallback = no_message,
@@ -160,35 +197,29 @@ def prepare_tiles(
 
 
 def make(
-    job: str,
-    task: dict[str, Any],
-    undone: list[Any],
-    store: Any,
+    job: Callable[..., Result],
+    undone: list[Picture],
+    store: Store,
     shot: Shot,
     progress: Progress,
     tell: MessageCallback,
     stop: worker.Stop | None,
-) -> Any:
+) -> Result:
     """Run a render job in a worker process; then release its leases and write the manifest.
 
     Parameters
     ----------
-    task
-        Arguments of the job except `out`, `pictures` and `owner`.
-
-    Returns
-    -------
-    The job's result.
+    job
+        Function for the worker, whose other arguments are `pictures` and `owner`.
     """
     from .. import leases
 
     owner = leases.new_owner()
-    pictures = [[picture.camera, picture.frame, picture.name] for picture in undone]
-    task = task | {"out": str(store.out.absolute()), "pictures": pictures, "owner": owner}
+    work = partial(job, pictures=undone, owner=owner)
     eevee = shot.settings.render.engine == "eevee"
     follow = picture_progress(store.out, progress, tell)
     try:
-        result = worker.run(job, task, follow, eevee=eevee, stop=stop, tell=tell)
+        result = worker.run(work, follow, eevee=eevee, stop=stop, tell=tell)
     except BaseException:
         with contextlib.suppress(Error):  # the first error is the one to report
             leases.leave(store.data, owner)
@@ -214,53 +245,40 @@ def picture_progress(out: Path, progress: Progress, tell: MessageCallback) -> Pr
 
 
 def in_blender(
-    choice: dict[str, str],
-    out: str,
-    pictures: list[list[Any]],
-    filmed: list[list[str]],
-    owner: str,
+    choice: ShotSource,
+    asked: RenderRequest,
+    filmed: set[tuple[str, str]],
     begun: int,
-    resume: bool,
-    selection: Selection,
+    pictures: list[Picture],
+    owner: str,
     progress: Progress,
     tell: MessageCallback,
-    films: bool = True,
-) -> dict[str, int]:
+) -> RenderResult:
     """Render these pictures, each camera in a separate scene, then films of these cameras and passes.
 
     Pictures leased by other renders are skipped.
 
     Parameters
     ----------
+    filmed
+        Cameras and passes.
     begun
-        Number of the store's latest entry when the render began.
-    resume
-        Entries up to `begun` count as finished.
-    selection
-        Requested frames, camera and passes (see `render.plan.pictures`).
-    films
-        Also make films.
-
-    Returns
-    -------
-    Values of a `RenderResult`: `pictures`, `expected` and `peak`.
+        Number of the store's latest entry when the render began; with `resume`, earlier entries are finished.
     """
     from ..render import comparison, fingerprint, plan, sharing, video
-    from ..render.picture import Picture
     from ..shot import passes
     from ..smoke import plume_mass
     from . import device
 
-    shot = ShotSource(**choice).shot()
-    asked = [Picture(*picture) for picture in pictures]
-    todo = [picture for picture in asked if not passes.compares(picture.name)]
+    shot = choice.shot()
+    todo = [picture for picture in pictures if not passes.compares(picture.name)]
     drawn = set(todo)
     frames, expected, gpus = count_frames(todo), 0, None
     if todo and shot.settings.render.engine == "cycles":
         gpus = device.select(shot.settings, frames, tell)
-    made_with = fingerprint.compute_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
-    everything, after = plan.pictures(shot, *selection), 0 if resume else begun
-    with sharing.open_session(Path(out), made_with, owner, after, begun, everything) as session:
+    made_with = fingerprint.compute_pairs(shot, filmed, progress)
+    everything, after = plan.pictures(shot, *asked.selection()), 0 if asked.resume else begun
+    with sharing.open_session(asked.out, made_with, owner, after, begun, everything) as session:
         over = 0
         for part in plan.rounds(shot, todo):
             over += count_frames(part)
@@ -270,19 +288,19 @@ def in_blender(
                     wanted = list(group)
                     own = share(progress, done, frames, "rendering")
                     view = for_view(shot, camera)
-                    peak = _camera(ShotSource(**choice), view, session, wanted, gpus, own, tell)
+                    peak = _camera(choice, view, session, wanted, gpus, own, tell)
                     expected = max(expected, peak)
                     done += count_frames(wanted)
         if todo and shot.settings.smoke.enabled:
             tell(plume_mass.describe(shot))
-        comparison.make(shot, session, [each for each in asked if each not in drawn], progress, tell)
-        if films:
+        comparison.make(shot, session, [each for each in pictures if each not in drawn], progress, tell)
+        if asked.films:
             video.make(shot, session, progress)
         made = len(session.finished)
-    return {"pictures": made, "expected": expected, "peak": memory.peak()}
+    return RenderResult(made, expected, memory.peak())
 
 
-def count_frames(pictures: list[Any]) -> int:
+def count_frames(pictures: list[Picture]) -> int:
     """Count the frames of these pictures."""
     return len({(picture.camera, picture.frame) for picture in pictures})
 
@@ -290,9 +308,9 @@ def count_frames(pictures: list[Any]) -> int:
 def _camera(
     choice: ShotSource,
     shot: Shot,
-    session: Any,
-    wanted: list[Any],
-    gpus: Any,
+    session: RenderSession,
+    wanted: list[Picture],
+    gpus: Gpus | None,
     progress: Progress,
     tell: MessageCallback,
 ) -> int:
@@ -334,7 +352,7 @@ def _camera(
     return most
 
 
-def _with_culling(shot: Shot, stage: Any, ready: Callable[..., Any]) -> Callable[..., Any]:
+def _with_culling(shot: Shot, stage: Stage, ready: Callable[..., Any]) -> Callable[..., Any]:
     """Extend `ready` by culling the forest for its frame."""
     from ..scene.forest.frame_culling import FrameCulling
 
@@ -371,7 +389,7 @@ def _solving(
         yield working
 
 
-def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
+def _parts(shot: Shot, wanted: list[Picture]) -> Iterator[tuple[Shot, list[Picture]]]:
     """Split into chunks: shots of `render.chunk` frames of the camera, built together, with their pictures.
 
     Chunk boundaries do not depend on the requested frames.
@@ -385,7 +403,7 @@ def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
         yield shot if len(own) == 1 else shot.for_frames(own[k]), list(group)
 
 
-def smoke_frames(shot: Shot, wanted: list[Any]) -> list[int]:
+def smoke_frames(shot: Shot, wanted: list[Picture]) -> list[int]:
     """List the frames of pictures that show smoke, ascending."""
     from ..render import plan
     from ..shot import passes

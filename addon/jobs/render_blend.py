@@ -5,8 +5,9 @@ from __future__ import annotations
 import hashlib
 import itertools
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import Error
 from ..progress import MessageCallback, Progress, count, no_message, share, silent
@@ -16,6 +17,10 @@ from ..shot.source import ShotSource
 from ..shot.tiles import tile_terms
 from . import worker
 from .render import RenderRequest, count_frames, make, smoke_frames
+
+if TYPE_CHECKING:
+    from ..render.fingerprint import Fingerprints
+    from ..render.picture import Picture
 
 
 def run(
@@ -58,20 +63,14 @@ def run(
         undone = plan.missing(store, wanted, made_with, 0 if asked.resume else begun)
         if text := exr_clock.update(shot, store, set(wanted) - set(undone), made_with):
             tell(text)
-        task = {
-            "choice": choice.plain(),
-            "blend": str(blend),
-            "scene": scene,
-            "made_with": [[*pair, values] for pair, values in made_with.items()],
-            "begun": begun,
-            "resume": asked.resume,
-        }
+        own = replace(asked, out=asked.out.absolute())
+        job = partial(in_blender, choice, blend, scene, own, made_with, begun)
         tell(f"rendering {count(len(undone), 'picture')} of {blend.name} in its current state")
-        make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
+        make(job, undone, store, shot, progress, tell, stop)
     return len(undone)
 
 
-def _made_with(digest: str, wanted: list[Any]) -> dict[tuple[str, str], dict[str, Any]]:
+def _made_with(digest: str, wanted: list[Picture]) -> Fingerprints:
     """Collect fingerprint inputs of pictures of this .blend file, by camera and pass."""
     from ..render.fingerprint import versions
     from ..shot import passes
@@ -83,15 +82,14 @@ def _made_with(digest: str, wanted: list[Any]) -> dict[tuple[str, str], dict[str
 
 
 def in_blender(
-    choice: dict[str, str],
-    blend: str,
+    choice: ShotSource,
+    blend: Path,
     scene: str,
-    out: str,
-    pictures: list[list[Any]],
-    made_with: list[list[Any]],
-    owner: str,
+    asked: RenderRequest,
+    made_with: Fingerprints,
     begun: int,
-    resume: bool,
+    pictures: list[Picture],
+    owner: str,
     progress: Progress,
     tell: MessageCallback,
 ) -> None:
@@ -101,28 +99,25 @@ def in_blender(
     from ..blender import devices, owned
     from ..render import engine, layers, plan, sharing, video
     from ..render import pictures as renderer
-    from ..render.picture import Picture
     from ..scene.smoke import volume_files
     from ..smoke import bake, prefetch, sources
     from . import device
 
-    bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False, use_scripts=False)
+    bpy.ops.wm.open_mainfile(filepath=str(blend), load_ui=False, use_scripts=False)
     stage = owned.stage(bpy.data.scenes[scene])
     layers.repair(stage.scene)
-    shot = _with_scene_settings(ShotSource(**choice).shot(), stage.scene)
+    shot = _with_scene_settings(choice.shot(), stage.scene)
     if shot.settings.smoke.enabled and not sources.is_integrated(shot):
         volume_files.set_folder(stage, bake.folder(shot))  # in which `prefetch` writes missing volumes
-    todo = [Picture(*picture) for picture in pictures]
-    plan.check_marched(shot, todo)
+    plan.check_marched(shot, pictures)
     if stage.scene.render.engine == "CYCLES":
-        devices.use(device.select(shot.settings, count_frames(todo), tell), stage.scene)
-    known = {(camera, name): values for camera, name, values in made_with}
-    frames, done, after = count_frames(todo), 0, 0 if resume else begun
+        devices.use(device.select(shot.settings, count_frames(pictures), tell), stage.scene)
+    frames, done, after = count_frames(pictures), 0, 0 if asked.resume else begun
     with (
-        sharing.open_session(Path(out), known, owner, after, begun, todo) as session,
-        prefetch.smoke(shot, smoke_frames(shot, todo), progress, tell) as ready,
+        sharing.open_session(asked.out, made_with, owner, after, begun, pictures) as session,
+        prefetch.smoke(shot, smoke_frames(shot, pictures), progress, tell) as ready,
     ):
-        for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
+        for camera, group in itertools.groupby(pictures, key=lambda picture: picture.camera):
             if stage.camera(camera) is None:
                 raise Error(f'the camera "{camera}" is not in the scene {scene}; build the cameras again')
             wanted, alone = list(group), for_view(shot, camera)

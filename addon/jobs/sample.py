@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from functools import partial
 from pathlib import Path
 
 from ..progress import MessageCallback, Progress, no_message, silent
@@ -21,14 +22,14 @@ def run(
     part = out.with_name(f".{out.name}.part")
     shutil.rmtree(part, ignore_errors=True)
     try:
-        worker.run(f"{__name__}:in_blender", {"out": str(part)}, progress, stop=stop, tell=tell)
+        worker.run(partial(in_blender, part), progress, stop=stop, tell=tell)
         part.rename(out)
     finally:
         shutil.rmtree(part, ignore_errors=True)
 
 
-def in_blender(out: str, progress: Progress, tell: MessageCallback) -> None:
+def in_blender(out: Path, progress: Progress, tell: MessageCallback) -> None:
     """Write the sample run."""
     from ..data import sample
 
-    sample.write(Path(out), None, "npy", lambda done, total: progress(done, total, "writing the sample run"))
+    sample.write(out, None, "npy", lambda done, total: progress(done, total, "writing the sample run"))

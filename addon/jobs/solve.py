@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import threading
 from collections.abc import Callable, Iterator
+from functools import partial
 
 from ..errors import Error
 from ..progress import MessageCallback, Progress
@@ -23,11 +24,11 @@ def in_parallel(choice: ShotSource, view: str, frames: list[int], progress: Prog
     meets them again when it solves a missing snapshot itself.
     """
     stop = worker.Stop()
-    task = {"choice": choice.plain(), "view": view, "frames": frames}
+    work = partial(in_process, choice, view, frames)
 
     def solve() -> None:
         with contextlib.suppress(Error, worker.StoppedError, worker.EndedError, OSError):
-            worker.run(f"{__name__}:in_process", task, progress, stop=stop, blender=False)
+            worker.run(work, progress, stop=stop, blender=False)
 
     thread = threading.Thread(target=solve, daemon=True)
     thread.start()
@@ -39,11 +40,11 @@ def in_parallel(choice: ShotSource, view: str, frames: list[int], progress: Prog
 
 
 def in_process(
-    choice: dict[str, str], view: str, frames: list[int], progress: Progress, tell: MessageCallback
+    choice: ShotSource, view: str, frames: list[int], progress: Progress, tell: MessageCallback
 ) -> None:
     """Solve the flow; worker side."""
     from ..smoke import sources
 
-    source = sources.select(for_view(ShotSource(**choice).shot(), view))
+    source = sources.select(for_view(choice.shot(), view))
     with source.in_use():
         source.prepare(frames, progress)

@@ -1,7 +1,7 @@
 """Worker process: calls a function in a child process, isolated from Blender's output and crashes.
 
-The parent writes the arguments to the child's stdin as one JSON line and keeps that pipe open. The child
-answers on its stdout with JSON lines: progress, then a result or an error. Blender's own output goes to a log
+The parent writes the call to the child's stdin as a pickle and keeps that pipe open. The child answers on its
+stdout with pickles: progress and messages, then a result or an error. Blender's own output goes to a log
 file. The child ends when the parent's end of the pipe closes, even if the parent was killed.
 """
 
@@ -9,17 +9,16 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import importlib
-import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Callable
+import traceback
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, Protocol, TypeVar
 
 from .. import memory
 from ..gpu import caches
@@ -28,7 +27,22 @@ from ..progress import MessageCallback, Progress, duration, no_message, silent
 if TYPE_CHECKING:
     from ..errors import Error
 
-_heartbeats: list[Callable[[], None]] = []
+Result = TypeVar("Result", covariant=True)
+Answer = tuple[str, Any]
+"""A kind, "progress", "tell", "heartbeat", "result" or "error", and its value."""
+
+_START = b"firetwin: answers follow\n"  # after the banner of Blender's own executable
+_NONE: Answer = ("", None)
+
+
+class Work(Protocol[Result]):
+    """A function at the top of a module, or a `functools.partial` of one with its other arguments.
+
+    Arguments and result are dataclasses and other values that pickle can represent.
+    """
+
+    def __call__(self, *, progress: Progress, tell: MessageCallback) -> Result:
+        """Do the work; worker side."""
 
 
 class StoppedError(Exception):
@@ -44,7 +58,7 @@ class Stop:
 
     def __init__(self) -> None:
         self.asked = False
-        self._child: subprocess.Popen[str] | None = None
+        self._child: subprocess.Popen[bytes] | None = None
         self._lock = threading.Lock()
 
     def now(self) -> None:
@@ -57,7 +71,7 @@ class Stop:
                 sure.daemon = True
                 sure.start()
 
-    def watch(self, child: subprocess.Popen[str]) -> None:
+    def watch(self, child: subprocess.Popen[bytes]) -> None:
         """Register the child to end."""
         with self._lock:
             self._child = child
@@ -66,34 +80,27 @@ class Stop:
 
 
 def run(
-    task: str,
-    arguments: dict[str, Any],
+    work: Work[Result],
     progress: Progress = silent,
     eevee: bool = False,
     stop: Stop | None = None,
     tell: MessageCallback = no_message,
     blender: bool = True,
     patience: float = 0.0,
-) -> Any:
-    """Call ``package.module:function`` in a child process: ``function(progress=..., tell=..., **arguments)``.
+) -> Result:
+    """Call ``work(progress=..., tell=...)`` in a child process, and return its result.
 
     Parameters
     ----------
-    arguments
-        Values that JSON can represent.
     eevee
-        The task renders with EEVEE, which needs OpenGL; without a display it uses an off-screen one.
+        The work renders with EEVEE, which needs OpenGL; without a display it uses an off-screen one.
     stop
         Cancellation token for use by another thread.
     blender
-        The task needs Blender; a task that does not need it also runs without a Blender.
+        The work needs Blender; work that does not need it also runs without a Blender.
     patience
-        Timeout in s: the child is ended after this time without progress or heartbeat (`send_heartbeat`); 0:
-        no timeout.
-
-    Returns
-    -------
-    The function's result, as JSON represents it.
+        Timeout in s: the child is ended after this time without progress or heartbeat (see
+        `run.models.heartbeat`); 0: no timeout.
 
     Raises
     ------
@@ -102,9 +109,9 @@ def run(
     StoppedError
         `stop` was used.
     EndedError
-        The process of a task without Blender ended otherwise.
+        The process of work without Blender ended otherwise.
     """
-    from ..errors import Error, from_plain, writing
+    from ..errors import Error, InputError, writing
 
     with writing("the temporary folder"):
         log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
@@ -118,30 +125,27 @@ def run(
             stdout=subprocess.PIPE,
             stderr=log,
             env=_environment(eevee),
-            encoding="utf-8",
-            errors="replace",  # Blender's own output
         )
     try:
         _end_on_sigterm()
         if stop is not None:
             stop.watch(child)
         with _Watchdog(child, patience) as watch:
-            answer = _converse(child, {"task": task, "arguments": arguments}, progress, tell, watch)
+            kind, value = _converse(child, work, progress, tell, watch)
     finally:
         _end(child)
-    if "result" in answer:
+    if kind == "result":
         forget()
-        return answer["result"]
+        return value
     if stop is not None and stop.asked:
         forget()
         raise StoppedError
-    found, log_at = answer.get("error"), f" (the log of Blender is {log.name})" if blender else ""
-    if found and ("place" in found or not blender):
+    log_at = f" (the log of Blender is {log.name})" if blender else ""
+    if not blender or isinstance(value, InputError):
         forget()
-    if found:
-        raise from_plain(found, log_at)
+    if kind == "error":
+        raise value if isinstance(value, InputError) else type(value)(" ".join(str(value).split()) + log_at)
     if not blender:
-        forget()
         if watch.over:
             raise EndedError(f"made no progress for {duration(patience)} and was ended")
         raise EndedError(_stopped(child.returncode))
@@ -163,7 +167,7 @@ class _Watchdog:
         True if it ended the child.
     """
 
-    def __init__(self, child: subprocess.Popen[str], seconds: float) -> None:
+    def __init__(self, child: subprocess.Popen[bytes], seconds: float) -> None:
         self.over = False
         self._child, self._seconds = child, seconds
         self._heard, self._done = threading.Event(), False
@@ -197,37 +201,42 @@ def _remove(path: Path) -> None:
 
 
 def _converse(
-    child: subprocess.Popen[str],
-    request: dict[str, Any],
+    child: subprocess.Popen[bytes],
+    work: Work[Any],
     progress: Progress,
     tell: MessageCallback,
     watch: _Watchdog,
-) -> dict[str, Any]:
-    """Send the request, pass on progress and messages, and return the last answer; empty without one."""
+) -> Answer:
+    """Send the work, pass on progress and messages, and return the last answer; `_NONE` without one."""
     assert child.stdin is not None
     assert child.stdout is not None
+    call = pickle.dumps(work)
     try:
-        child.stdin.write(json.dumps(request) + "\n")
+        child.stdin.write(call)
         child.stdin.flush()
     except OSError:  # broken pipe: BrokenPipeError, on Windows an invalid argument
-        return {}
+        return _NONE
     for line in child.stdout:
-        watch.heard()
-        if not line.startswith("{"):
-            continue  # Blender's own executable prints a banner first
-        answer = json.loads(line)
-        if "progress" in answer:
-            progress(*answer["progress"])
-        elif "tell" in answer:
-            tell(answer["tell"])
-        elif "sign" not in answer:
+        if line.endswith(_START):
+            watch.heard()
+            break
+    while True:
+        try:
+            kind, value = pickle.load(child.stdout)
+        except (EOFError, pickle.UnpicklingError):  # it ended, perhaps within an answer
             child.wait()
-            return answer
-    child.wait()
-    return {}
+            return _NONE
+        watch.heard()
+        if kind == "progress":
+            progress(*value)
+        elif kind == "tell":
+            tell(value)
+        elif kind != "heartbeat":
+            child.wait()
+            return kind, value
 
 
-def _end(child: subprocess.Popen[str]) -> None:
+def _end(child: subprocess.Popen[bytes]) -> None:
     """End the child if it still runs: terminate, then kill."""
     assert child.stdin is not None
     assert child.stdout is not None
@@ -287,41 +296,50 @@ def _signal(number: int) -> str:
 
 
 def serve(blender: bool = True) -> None:
-    """Execute the parent's request; worker side of `run`."""
+    """Do the parent's work; worker side of `run`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent decides
-    channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    channel = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
-    request = json.loads(sys.stdin.readline())
-    threading.Thread(target=_watch_parent, daemon=True).start()
+    _set_binary(channel)
+    _set_binary(sys.stdin)
+    channel.write(_START)
+    channel.flush()
+    sending = threading.Lock()
 
-    def answer(**message: Any) -> None:
-        print(json.dumps(message), file=channel, flush=True)
+    def answer(kind: str, value: Any = None) -> None:
+        data = pickle.dumps((kind, value))
+        with sending:
+            channel.write(data)
+            channel.flush()
 
-    _heartbeats.append(lambda: answer(sign=True))
     if blender:
-        import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins, and it must be Blender's)
+        import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins; it must be Blender's)
 
-    from ..errors import InputError, to_plain
+    from ..errors import InputError
+    from ..run.models import heartbeat
 
-    module, _, function = request["task"].partition(":")
     try:
-        call = getattr(importlib.import_module(module), function)
-        result = call(
-            progress=lambda *where: answer(progress=where),
-            tell=lambda text: answer(tell=text),
-            **request["arguments"],
-        )
-    except InputError as error:
-        answer(error=to_plain(error))
+        work: Work[Any] = pickle.load(sys.stdin.buffer)
+        threading.Thread(target=_watch_parent, daemon=True).start()
+        with heartbeat.to(lambda: answer("heartbeat")):
+            result = work(
+                progress=lambda *where: answer("progress", where), tell=lambda text: answer("tell", text)
+            )
+        answer("result", result)
     except Exception as error:
-        import traceback
-
-        traceback.print_exc()
-        answer(error=to_plain(_as_firetwin_error(error)))
-    else:
-        answer(result=result)
+        if not isinstance(error, InputError):
+            traceback.print_exc()
+        answer("error", _as_firetwin_error(error))
     sys.stderr.flush()
     os._exit(0)  # Blender as a module may crash while the interpreter shuts down
+
+
+def _set_binary(stream: IO[Any]) -> None:
+    """Keep Windows from converting the ends of lines, as it does in Blender's Python."""
+    if sys.platform == "win32":
+        import msvcrt
+
+        msvcrt.setmode(stream.fileno(), os.O_BINARY)
 
 
 def _as_firetwin_error(error: Exception) -> Error:
@@ -335,12 +353,6 @@ def _as_firetwin_error(error: Exception) -> Error:
         return full_disk_error(error.filename) if again else input_error(error.filename, error.strerror)
     text = str(error) if isinstance(error, OSError) else f"{type(error).__name__}: {error}"
     return TryAgainError(text) if again else Error(text)
-
-
-def send_heartbeat() -> None:
-    """Send a heartbeat to the parent's watchdog (`patience`); no effect in other processes."""
-    for say in _heartbeats:
-        say()
 
 
 def _watch_parent() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ShotSource:
-    """Overrides as plain text, which can be passed to another process; empty values keep the scene file's.
+    """Overrides as text; empty values keep the scene file's.
 
     Attributes
     ----------
@@ -45,10 +45,6 @@ class ShotSource:
     beside: str = ""
     preset: str = ""
     exposure: str = ""
-
-    def plain(self) -> dict[str, str]:
-        """Plain form, which `ShotSource(**plain)` takes."""
-        return asdict(self)
 
     def settings(self) -> Settings:
         """Read the settings of the scene file and apply the overrides.

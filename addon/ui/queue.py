@@ -7,7 +7,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import bpy
@@ -152,7 +152,7 @@ def add(title: str, scene: bpy.types.Scene, choice: ShotSource, asked: RenderReq
         if choice.scene:  # written for this session only
             kept = folder / "scene.toml"
             shutil.copyfile(choice.scene, kept)
-            item.choice = ShotSource(**{**choice.plain(), "scene": str(kept)})
+            item.choice = replace(choice, scene=str(kept))
         bpy.ops.wm.save_as_mainfile(filepath=str(item.blend), copy=True, compress=False)
     except BaseException:
         shutil.rmtree(folder, ignore_errors=True)

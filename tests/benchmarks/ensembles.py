@@ -72,7 +72,7 @@ def run(bench: Bench) -> None:
             case, [Runner(OURS, partial(compute, forecast))], int(np.prod(forecast.shape)), "value"
         )
         bench.target(f"Time of the three, {case}", times[OURS].seconds, 3.0, "s", most=True)
-        peak = worker.run(f"{__name__}:peak_of", {"folder": str(forecast.path)}, blender=False)
+        peak = worker.run(partial(peak_of, forecast.path), blender=False)
         if peak:  # known
             bench.target(f"Peak memory of a process, {case}", peak / 1e6, 300.0, "MB", most=True)
         forecast = make(Path(folder) / "many", *MANY)
@@ -85,7 +85,7 @@ def run(bench: Bench) -> None:
         bench.target(f"Speed of depths / areas of all pairs, {case}", speed, 2.0, "x")
 
 
-def peak_of(folder: str, progress: Progress = silent, tell: MessageCallback = no_message) -> int:
+def peak_of(folder: Path, progress: Progress = silent, tell: MessageCallback = no_message) -> int:
     """Compute the three statistics in a worker process; return its peak memory, bytes."""
-    compute(ensemble.open(Path(folder)))
+    compute(ensemble.open(folder))
     return memory.peak()

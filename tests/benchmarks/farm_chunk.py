@@ -66,7 +66,7 @@ def solve(path: Path, cache: Path, frames: int) -> None:
     from firetwin.shot.source import ShotSource
 
     choice = ShotSource(scene=str(path), cache=str(cache))
-    solve.in_process(choice.plain(), "drone", list(range(1, frames + 1)), Reporter(), say)
+    solve.in_process(choice, "drone", list(range(1, frames + 1)), Reporter(), say)
 
 
 def task(path: Path, out: Path, cache: Path, frames: int) -> dict[str, float]:

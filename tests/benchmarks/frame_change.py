@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import tempfile
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 
 from firetwin.bench.harness import OURS, Bench
@@ -30,7 +31,7 @@ def run(bench: Bench) -> None:
     if not bench.blender():
         return
     with tempfile.TemporaryDirectory() as folder:
-        found = worker.run(f"{__name__}:change_in_blender", {"folder": folder, "times": 2 * LEAST})
+        found = worker.run(partial(change_in_blender, folder, 2 * LEAST))
     for case, seconds in found.items():
         bench.row("the sample's scene", case, Times(tuple(seconds)), 1, "frame")
     milliseconds = [1e3 * each for each in found[OURS]]

@@ -12,6 +12,7 @@ import os
 import tempfile
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -56,7 +57,7 @@ def run(bench: Bench) -> None:
     if flip is None:
         return
     with tempfile.TemporaryDirectory() as folder:
-        seconds = worker.run(f"{__name__}:render_in_blender", {"folder": folder})
+        seconds = worker.run(partial(render_in_blender, folder))
         errors = {
             name: flip.evaluate(
                 picture(folder, OURS if name == OTHER_GRAIN else REFERENCE), picture(folder, name), "LDR"

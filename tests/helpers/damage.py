@@ -193,7 +193,7 @@ def _convert(paths, options, folder):
             if options is None:
                 run = readers.open(paths[0].parent)
             else:
-                convert.in_process([str(path) for path in paths], str(out), options)
+                convert.in_process(paths, out, options)
                 run = readers.open(out)
             info.page(info.gather(run, zone.time_zone(run)))
         except Exception as error:

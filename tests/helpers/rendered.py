@@ -14,8 +14,7 @@ def everything(folder, text):
     pictures = plan.pictures(choice.shot())
     with Store(out, create=True):
         pass
-    listed = [[picture.camera, picture.frame, picture.name] for picture in pictures]
-    pairs = sorted({(picture.camera, picture.name) for picture in pictures})
-    filmed, selection = [list(pair) for pair in pairs], [None, None, None]
-    render.in_blender(choice.plain(), str(out), listed, filmed, "me", 0, True, selection, silent, no_message)
+    filmed = {(picture.camera, picture.name) for picture in pictures}
+    asked = render.RenderRequest(out, resume=True)
+    render.in_blender(choice, asked, filmed, 0, pictures, "me", silent, no_message)
     return choice.shot(), out

@@ -6,10 +6,9 @@ from firetwin.shot.source import ShotSource
 from scene_text import DRONE, NO_PLANTS, PUFFS, THREE_FRAMES, TINY
 
 
-def here(task, arguments, progress, stop=None, tell=lambda text: None, **_):
+def here(work, progress, stop=None, tell=lambda text: None, **_):
     """Replacement of a worker process: `jobs.worker.run` in this one."""
-    module, _, function = task.partition(":")
-    return getattr(__import__(module, fromlist=["x"]), function)(progress=progress, tell=tell, **arguments)
+    return work(progress=progress, tell=tell)
 
 
 def write(folder, run):

@@ -1,7 +1,7 @@
 """A shot on tiles made of its ground, prepared within the process of a test."""
 
 import re
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import pytest
 from firetwin.blender import nodes
@@ -29,7 +29,7 @@ def decoded_here(monkeypatch):
     """Decode within this process."""
 
     def here(contents, progress):
-        return decode.in_process([asdict(each) for each in contents], progress, print)
+        return decode.in_process(contents, progress, print)
 
     monkeypatch.setattr(decode, "_limit", lambda memory: None)
     monkeypatch.setattr(decode, "run", here)

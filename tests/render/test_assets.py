@@ -8,6 +8,7 @@ from firetwin.progress import no_message, silent
 from firetwin.scene import assets
 from firetwin.scene.forest import models
 from firetwin.shot.settings import scene_file
+from firetwin.shot.source import ShotSource
 
 KINDS = ("objects", "materials", "node_groups")
 
@@ -29,7 +30,7 @@ def few(monkeypatch):
 
 def test_trees_materials_and_groups_are_assets_in_catalogues(settings, few, library):
     settings.path.write_text(scene_file.text(settings))
-    count = job.in_blender({"scene": str(settings.path)}, str(library), silent, no_message)
+    count = job.in_blender(ShotSource(str(settings.path)), library, silent, no_message)
     assert "Studio" not in bpy.data.scenes
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with bpy.data.libraries.load(str(library), assets_only=True) as (there, wanted):

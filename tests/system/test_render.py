@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 
+import child_work
 import pytest
 from firetwin import progress
 from firetwin.errors import Error
@@ -274,10 +275,8 @@ def test_the_blend_file_is_complete_and_needs_no_add_on(firetwin, tmp_path):
     assert not bpy.data.texts
 
 
-def test_a_crash_of_blender_is_one_clear_line(tmp_path, monkeypatch):
-    (tmp_path / "crash.py").write_text("import os\ndef abort(progress, tell):\n    os.abort()\n")
-    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
-    monkeypatch.setenv("PYTHONPATH", path)
+def test_a_crash_of_blender_is_one_clear_line(monkeypatch):
+    child_work.importable(monkeypatch)
     with pytest.raises(Error, match=r"stopped on signal 6 \(SIGABRT\).* log of Blender is") as caught:
-        worker.run("crash:abort", {}, eevee=True)
+        worker.run(child_work.abort, eevee=True)
     assert "EEVEE needs OpenGL" in str(caught.value)

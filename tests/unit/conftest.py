@@ -41,7 +41,7 @@ def converted(tmp_path: Path) -> Callable[..., Run]:
 
     def make(paths, start="", at="", projection="", interval=0.0):
         out = tmp_path / "run"
-        convert.in_process([str(path) for path in paths], str(out), [start, at, projection, interval])
+        convert.in_process(list(paths), out, [start, at, projection, interval])
         return runs.open(out)
 
     return make

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from ...tiles.sources import Network
 
@@ -14,7 +13,7 @@ PREFERENCE = "allow it by Edit > Preferences > System > Network > Allow Online A
 
 @dataclass(frozen=True)
 class TileAccess:
-    """Access to tiles; plain values, for another process.
+    """Access to tiles.
 
     Attributes
     ----------
@@ -35,19 +34,10 @@ class TileAccess:
     private: bool = False
     root: str = ""
 
-    def plain(self) -> dict[str, Any]:
-        """Return the plain form, for `from_plain`."""
-        return asdict(self)
-
     def network(self) -> Network:
         """Return the network permissions of a source."""
         root = Path(self.root) if self.root else None
-        return Network(self.online, self.setting, tuple(self.hosts), self.private, root=root)
-
-
-def from_plain(values: dict[str, Any]) -> TileAccess:
-    """Make an access from its plain form, in which JSON has turned tuples into lists."""
-    return TileAccess(**values | {"hosts": tuple(values["hosts"])})
+        return Network(self.online, self.setting, self.hosts, self.private, root=root)
 
 
 def apply_preferences(access: TileAccess) -> TileAccess:

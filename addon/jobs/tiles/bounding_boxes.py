@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from ...progress import MessageCallback, Progress, no_message, silent
 from ...shot.source import ShotSource
 from .. import worker
-from .access import TileAccess, apply_preferences, from_plain
+from .access import TileAccess, apply_preferences
 
 MOST = 2000
 """Maximum boxes of a source; the coarsest tiles are listed."""
@@ -33,22 +34,22 @@ def run(
     InputError
         A tileset is invalid or refused.
     """
-    about = {"choice": choice.plain(), "access": apply_preferences(TileAccess()).plain()}
-    return worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
+    work = partial(in_process, choice, apply_preferences(TileAccess()))
+    return worker.run(work, progress, tell=tell, blender=False, stop=stop)
 
 
 def in_process(
-    choice: dict[str, str], access: dict[str, Any], progress: Progress, tell: MessageCallback
+    choice: ShotSource, access: TileAccess, progress: Progress, tell: MessageCallback
 ) -> list[dict[str, Any]]:
     """Read the root documents; worker side."""
     from ...tiles.loader import Loader
     from . import source as tile_source
 
-    shot = ShotSource(**choice).shot()
+    shot = choice.shot()
     boxes = []
     for number in range(len(shot.settings.tiles.sources)):
         progress(number, len(shot.settings.tiles.sources), "reading the tilesets")
-        source = tile_source.open_tileset(shot, number, from_plain(access))
+        source = tile_source.open_tileset(shot, number, access)
         try:
             tree = Loader(source).tree
         finally:

@@ -10,7 +10,8 @@ import contextlib
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -91,10 +92,9 @@ def _decode(contents: list[DecodeTask], follow: Any) -> dict[str, str]:
             reached = done
             follow(first + done)
 
-        tasks = [asdict(each) for each in contents[first:]]
+        work = partial(in_process, contents[first:], memory=_MEMORY)
         try:
-            about = {"contents": tasks, "memory": _MEMORY}
-            bad |= worker.run(f"{__name__}:in_process", about, count, blender=False, patience=_SECONDS)
+            bad |= worker.run(work, count, blender=False, patience=_SECONDS)
             return bad
         except worker.EndedError as error:
             bad[contents[first + reached].name] = f"decoding {error}"
@@ -103,16 +103,15 @@ def _decode(contents: list[DecodeTask], follow: Any) -> dict[str, str]:
 
 
 def in_process(
-    contents: list[dict[str, Any]], progress: Progress, tell: MessageCallback, memory: int = _MEMORY
+    contents: list[DecodeTask], progress: Progress, tell: MessageCallback, memory: int = _MEMORY
 ) -> dict[str, str]:
     """Decode within `memory` bytes; worker side. Returns reasons of failures, by name."""
     from firetwin_core import tiles
 
     _limit(memory)
     bad = {}
-    for number, about in enumerate(contents):
+    for number, each in enumerate(contents):
         progress(number, len(contents))
-        each = DecodeTask(**about)
         try:
             resources = {uri: Path(path).read_bytes() for uri, path in (each.resources or {}).items()}
             tile = tiles.decode(

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from firetwin_core import sensor
@@ -32,7 +32,7 @@ from ...tiles.sources.backoff import Clock
 from ...tiles.sources.http import Http
 from ...tiles.sources.network import Network
 from .. import worker
-from .access import TileAccess, apply_preferences, from_plain
+from .access import TileAccess, apply_preferences
 
 _NAMED = 3  # missing tiles in a message; the drape's file lists all
 
@@ -58,25 +58,19 @@ def prepare(
         The address is invalid or refused, or the server stopped answering.
     """
     if choice.settings().terrain.photo_url:
-        allowed = apply_preferences(access or TileAccess())
-        about = {"choice": choice.plain(), "views": list(views), "access": allowed.plain()}
-        worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
+        work = partial(in_process, choice, views, apply_preferences(access or TileAccess()))
+        worker.run(work, progress, tell=tell, blender=False, stop=stop)
 
 
 def in_process(
-    choice: dict[str, str],
-    views: list[str],
-    access: dict[str, Any],
-    progress: Progress,
-    tell: MessageCallback,
+    choice: ShotSource, views: Sequence[str], access: TileAccess, progress: Progress, tell: MessageCallback
 ) -> None:
     """Fetch the orthophoto; worker side."""
-    shot, network = ShotSource(**choice).shot(), from_plain(access).network()
     made = set()
-    for built in comparison.for_views(shot, views):
+    for built in comparison.for_views(choice.shot(), views):
         if (path := drape.location(built)) not in made:
             made.add(path)
-            for sentence in make(built, progress, network):
+            for sentence in make(built, progress, access.network()):
                 tell(sentence)
 
 

@@ -11,8 +11,8 @@ import shutil
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 from ...errors import Error, InputError
 from ...progress import MessageCallback, Progress, count, no_message, share, silent
@@ -29,7 +29,7 @@ from ...shot.tiles.tile_terms import Use
 from ...tiles import decoded, policies
 from .. import worker
 from . import source as tile_source
-from .access import TileAccess, apply_preferences, from_plain
+from .access import TileAccess, apply_preferences
 from .source import PreparedTiles, TileSource
 
 PREVIEW_ERROR, PREVIEW_SIZE = 64.0, 200
@@ -77,15 +77,8 @@ def prepare(
     every = [*tile_terms.of_scene(settings), *uses]
     offline = [] if access.online else [("work_offline", "--offline")]
     tile_terms.check(settings, [*every, *offline])
-    about = {
-        "choice": choice.plain(),
-        "views": list(views),
-        "access": apply_preferences(access).plain(),
-        "uses": [list(use) for use in every],
-        "keep": keep,
-        "preview": preview,
-    }
-    worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
+    work = partial(in_process, choice, views, apply_preferences(access), every, keep, preview)
+    worker.run(work, progress, tell=tell, blender=False, stop=stop)
 
 
 def coarse_shot(shot: Shot) -> Shot:
@@ -101,35 +94,33 @@ def coarse_shot(shot: Shot) -> Shot:
 
 
 def in_process(
-    choice: dict[str, str],
-    views: list[str],
-    access: dict[str, Any],
-    uses: list[list[str]],
+    choice: ShotSource,
+    views: Sequence[str],
+    access: TileAccess,
+    uses: Sequence[Use],
     keep: bool,
+    preview: bool,
     progress: Progress,
     tell: MessageCallback,
-    preview: bool = False,
 ) -> None:
     """Prepare the tiles; worker side."""
-    source, how = ShotSource(**choice), from_plain(access)
-    wanted = [(use, what) for use, what in uses]
-    shot = source.shot()
+    shot = choice.shot()
     if preview:
-        make(coarse_shot(shot), progress, how, wanted)
+        make(coarse_shot(shot), progress, access, uses)
         return
     if shot.settings.terrain.height_source == "tiles":
         terrain = replace(shot.settings.terrain, height_source="elevation")
         first = Shot(replace(shot.settings, terrain=terrain), shot.run)
         heights = tile_heights_file.location(shot.settings, shot.run)
         if not (_can_keep(first, keep) and heights.exists()):
-            make(first, progress, how, wanted)
+            make(first, progress, access, uses)
             found = tile_cut.heights_file(tile_cut.location(first))
             if found.is_file():
                 shutil.copyfile(found, heights)
-        shot = source.shot()
+        shot = choice.shot()
     for built in comparison.for_views(shot, views):
         if not _can_keep(built, keep):
-            for sentence in make(built, progress, how, wanted):
+            for sentence in make(built, progress, access, uses):
                 tell(sentence)
 
 

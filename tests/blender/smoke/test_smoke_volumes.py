@@ -1,6 +1,7 @@
 """Smoke volumes of a built scene: missing, made on demand, and announced in the picture."""
 
 import shutil
+from functools import partial
 from unittest.mock import MagicMock
 
 import bpy
@@ -163,8 +164,9 @@ def test_a_removed_scene_has_no_button(opened):
 
 
 def test_a_stop_keeps_what_is_written_and_shows_it(opened, monkeypatch):
-    def stopped(task, arguments, *given, **more):
-        here(task, arguments | {"frames": [1]}, lambda *_: None)
+    def stopped(work, *given, **more):
+        choice, volumes, _ = work.args
+        here(partial(work.func, choice, volumes, [1]), lambda *_: None)
         raise worker.StoppedError
 
     monkeypatch.setattr(worker, "run", stopped)

@@ -1,7 +1,6 @@
 """The panel of tiles: boxes at once, coarse tiles, numbers, credits, and everything gone again."""
 
-import importlib
-import json
+import pickle
 from dataclasses import replace
 
 import bpy
@@ -28,15 +27,11 @@ pytestmark = pytest.mark.usefixtures("decoded_here", "plain_tiles")
 def here(monkeypatch):
     """Jobs run within this process."""
 
-    def run(task, arguments, progress=None, tell=None, stop=None, **_):
-        module, _, name = task.partition(":")
+    def run(work, progress=None, tell=None, stop=None, **_):
         if stop is not None and stop.asked:
             raise StoppedError
-        plain = json.loads(json.dumps(arguments))
-        found = getattr(importlib.import_module(module), name)(
-            progress=progress or (lambda *_: None), tell=tell or print, **plain
-        )
-        return json.loads(json.dumps(found))
+        found = pickle.loads(pickle.dumps(work))(progress=progress or (lambda *_: None), tell=tell or print)
+        return pickle.loads(pickle.dumps(found))
 
     monkeypatch.setattr(worker, "run", run)
 

@@ -3,7 +3,6 @@
 import hashlib
 import shutil
 from dataclasses import replace
-from pathlib import Path
 
 import bpy
 import numpy as np
@@ -186,16 +185,16 @@ def test_a_run_and_a_scene_file_are_opened_by_their_file(panel, run_folder, sett
 def test_the_king_fire_is_made_here_and_opened(panel, run_folder, tmp_path, monkeypatch):
     tasks = []
 
-    def copy(task, arguments, *_, **__):
-        tasks.append(task)
-        Path(arguments["out"]).symlink_to(run_folder)
+    def copy(work, *_, **__):
+        tasks.append(work.func)
+        work.args[0].symlink_to(run_folder)
 
     monkeypatch.setattr(sample.worker, "run", copy)
     for _ in range(2):
         assert bpy.ops.firetwin.sample(folder=str(tmp_path / "king")) == {"FINISHED"}
         assert panel.run == str(tmp_path / "king")
         assert panel.cameras.keys() == ["overview", "chase", "flank", "satellite"]
-    assert tasks == ["firetwin.jobs.sample:in_blender"]
+    assert tasks == [sample.in_blender]
     assert not list(tmp_path.glob(".*"))
 
 

@@ -80,10 +80,9 @@ def same(before, after):
         assert after[what] == names, f"{what}: left behind {after[what] - names}, gone {names - after[what]}"
 
 
-def work_here(task, arguments, progress, tell=print, **_):
-    """Do a worker's task in this process: Blender as a module cannot start another with its extensions."""
-    module, _, function = task.partition(":")
-    return getattr(importlib.import_module(module), function)(progress=progress, tell=tell, **arguments)
+def work_here(work, progress, tell=print, **_):
+    """Do a worker's work in this process: Blender as a module cannot start another with its extensions."""
+    return work(progress=progress, tell=tell)
 
 
 def use(bpy, folder):

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import child_work
 import pytest
 from firetwin import memory
 from firetwin.jobs import worker
@@ -69,13 +70,9 @@ def test_other_systems_have_nothing_to_bound_and_no_way_to_give_back(monkeypatch
 
 
 @GLIBC
-def test_the_worker_has_few_arenas_unless_somebody_says_otherwise(tmp_path, monkeypatch):
-    (tmp_path / "heaps.py").write_text(
-        "import os\ndef most(progress, tell):\n    return os.environ['MALLOC_ARENA_MAX']\n"
-    )
-    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
-    monkeypatch.setenv("PYTHONPATH", path)
+def test_the_worker_has_few_arenas_unless_somebody_says_otherwise(monkeypatch):
+    child_work.importable(monkeypatch)
     monkeypatch.delenv("MALLOC_ARENA_MAX", raising=False)
-    assert worker.run("heaps:most", {}, blender=False) == "1"
+    assert worker.run(child_work.arenas, blender=False) == "1"
     monkeypatch.setenv("MALLOC_ARENA_MAX", "5")
-    assert worker.run("heaps:most", {}, blender=False) == "5"
+    assert worker.run(child_work.arenas, blender=False) == "5"

@@ -1,8 +1,8 @@
 """Progress on a terminal and elsewhere, with a note on the last step."""
 
-import os
 import sys
 
+import child_work
 import pytest
 from firetwin import progress
 from firetwin.jobs import render, worker
@@ -51,14 +51,10 @@ def test_shared_work_passes_the_note_on():
     assert told == [(3, 10, "rendering", "last: a.png"), (1, 3, "building", "")]
 
 
-def test_the_worker_sends_the_note(tmp_path, monkeypatch):
-    (tmp_path / "noted.py").write_text(
-        "def work(progress, tell):\n    progress(1, 2, 'rendering', 'a.png')\n    progress(2, 2)\n"
-    )
-    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
-    monkeypatch.setenv("PYTHONPATH", path)
+def test_the_worker_sends_the_note(monkeypatch):
+    child_work.importable(monkeypatch)
     told = []
-    worker.run("noted:work", {}, lambda *how: told.append(how), blender=False)
+    worker.run(child_work.report, lambda *how: told.append(how), blender=False)
     assert told == [(1, 2, "rendering", "a.png"), (2, 2)]
 
 

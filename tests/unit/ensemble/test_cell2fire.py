@@ -29,7 +29,7 @@ def results(tmp_path: Path) -> Path:
 
 def run(folder: Path, out: Path) -> list[str]:
     said: list[str] = []
-    convert.members_in_process([str(folder)], str(out), OPTIONS, tell=said.append)
+    convert.members_in_process([folder], out, OPTIONS, tell=said.append)
     return said
 
 

@@ -229,16 +229,16 @@ def test_a_member_becomes_a_run(tmp_path):
     times = np.where(x < 10, 120.0 * x + 40.0 * y, NEVER)
     made = make(tmp_path, [times, times * 2], horizon=3600.0)
     options = ["", "", "", 300.0, "", ""]
-    convert.in_process([str(made.path)], str(tmp_path / "run"), options, member="01")
+    convert.in_process([made.path], tmp_path / "run", options, member="01")
     run = readers.open(tmp_path / "run")
     arrival = np.asarray(run.fuel_arrival_time())
     np.testing.assert_allclose(np.where(np.isnan(arrival), NEVER, arrival), made.arrival(1))
     assert run.name == "test, member 01"
     assert run.heat_flux(2).max() > 0.0
     with pytest.raises(InputError, match='has no member "7"; choose one of 00, 01'):
-        convert.in_process([str(made.path)], str(tmp_path / "other"), options, member="7")
+        convert.in_process([made.path], tmp_path / "other", options, member="7")
     with pytest.raises(InputError, match="is not an ensemble; make one"):
-        convert.in_process([str(tmp_path)], str(tmp_path / "other"), options, member="01")
+        convert.in_process([tmp_path], tmp_path / "other", options, member="01")
 
 
 @pytest.mark.parametrize(
@@ -259,9 +259,7 @@ def test_a_probability_is_no_fire(tmp_path, name, reason):
     """Each of the six meanings: the map is refused in a sentence that says what it is."""
     (tmp_path / f"{name}.tif").write_bytes(b"II*\0")
     with pytest.raises(InputError, match=f"{reason}.*: no fire can burn from it; give "):
-        convert.members_in_process(
-            [str(tmp_path)], str(tmp_path / "out"), ["2024-01-01T00:00Z", "", "", 0, "", ""]
-        )
+        convert.members_in_process([tmp_path], tmp_path / "out", ["2024-01-01T00:00Z", "", "", 0, "", ""])
 
 
 def test_a_damaged_folder_is_one_error(tmp_path):

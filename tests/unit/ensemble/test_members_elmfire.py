@@ -43,7 +43,7 @@ def burned_list(path: Path, cells: list[tuple[int, int, float]]) -> None:
 def run(folder: Path, out: Path) -> tuple[ensemble.Ensemble, np.ndarray, list[str]]:
     """Convert; return the ensemble, its arrival times with rows from the north, and what was printed."""
     said: list[str] = []
-    convert.members_in_process([str(folder)], str(out), OPTIONS, tell=said.append)
+    convert.members_in_process([folder], out, OPTIONS, tell=said.append)
     made = ensemble.open(out)
     rows = slice(None, None, -1) if made.latitude[0] < made.latitude[-1] else slice(None)
     return made, np.stack([made.arrival(index)[rows] for index in range(len(made.members))]), said

@@ -38,7 +38,7 @@ def folder(tmp_path: Path) -> Path:
 def run(folder: Path, out: Path) -> tuple[ensemble.Ensemble, np.ndarray, list[str]]:
     """Convert; return the ensemble, its arrival times with rows from the north, and what was printed."""
     said: list[str] = []
-    convert.members_in_process([str(folder)], str(out), OPTIONS, tell=said.append)
+    convert.members_in_process([folder], out, OPTIONS, tell=said.append)
     made = ensemble.open(out)
     rows = slice(None, None, -1) if made.latitude[0] < made.latitude[-1] else slice(None)
     return made, np.stack([made.arrival(index)[rows] for index in range(len(made.members))]), said
@@ -72,7 +72,7 @@ def test_a_number_in_two_folders_is_refused(folder, tmp_path):
     (tmp_path / "more").mkdir()
     other = burned_list(tmp_path / "more", 2, [(1, 1, 60.0)])
     with pytest.raises(InputError, match=rf"{other.name}: is the same member as .*outputs"):
-        convert.members_in_process([str(folder), str(other.parent)], str(tmp_path / "out"), OPTIONS)
+        convert.members_in_process([folder, other.parent], tmp_path / "out", OPTIONS)
 
 
 def test_damaged_lists_are_left_out(folder, tmp_path):

@@ -47,7 +47,7 @@ BOTH = [[90, 0, 0], [0, 0, 2]]
 
 def run(folder: Path, out: Path, *options: object) -> tuple[ensemble.Ensemble, np.ndarray]:
     """Convert; return the ensemble, and its arrival times with rows from the south."""
-    convert.members_in_process([str(folder)], str(out), list(options) or OPTIONS)
+    convert.members_in_process([folder], out, list(options) or OPTIONS)
     made = ensemble.open(out)
     rows = slice(None) if made.latitude[0] < made.latitude[-1] else slice(None, None, -1)
     return made, np.stack([made.arrival(index)[rows] for index in range(len(made.members))])

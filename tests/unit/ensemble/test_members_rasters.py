@@ -24,7 +24,7 @@ def grid(path: Path, rows: str, x: float = 700000) -> Path:
 
 def run(folder: Path, out: Path, *start: str) -> tuple[ensemble.Ensemble, np.ndarray]:
     """Convert; return the ensemble, and its arrival times with rows from the north."""
-    convert.members_in_process([str(folder)], str(out), [*start, *OPTIONS[len(start) :]])
+    convert.members_in_process([folder], out, [*start, *OPTIONS[len(start) :]])
     made = ensemble.open(out)
     rows = slice(None, None, -1) if made.latitude[0] < made.latitude[-1] else slice(None)
     return made, np.stack([made.arrival(index)[rows] for index in range(len(made.members))])
@@ -68,7 +68,7 @@ def test_ranks_are_in_hours_and_are_not_a_forecast(tmp_path):
 def test_a_name_in_two_folders_is_refused(tmp_path):
     folders = [grid(tmp_path / name / "dry_ArrivalTime.asc", "1 2\n3 4\n").parent for name in "ab"]
     with pytest.raises(InputError, match=r"b.dry_ArrivalTime.asc: is the same member as .*a.dry_Arr"):
-        convert.members_in_process([*map(str, folders)], str(tmp_path / "out"), OPTIONS)
+        convert.members_in_process(list(folders), tmp_path / "out", OPTIONS)
 
 
 @pytest.mark.parametrize("name", ["min_arrival_time_60", "time-of-arrival_50"])

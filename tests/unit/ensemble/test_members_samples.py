@@ -46,7 +46,7 @@ def describe(tmp_path: Path):
 
 def run(folder: Path, out: Path) -> np.ndarray:
     """Convert, and return arrival times (m, ny, nx), rows from the north."""
-    convert.members_in_process([str(folder)], str(out), OPTIONS)
+    convert.members_in_process([folder], out, OPTIONS)
     made = ensemble.open(out)
     rows = slice(None, None, -1) if made.latitude[0] < made.latitude[-1] else slice(None)
     return np.stack([made.arrival(index)[rows] for index in range(len(made.members))])

@@ -41,7 +41,7 @@ def scenario(path: Path, name: str, *halves: float, hour: str = "{hour:02}:00:00
 def test_each_file_is_a_scenario(tmp_path):
     scenario(tmp_path / "best.kml", "Best case", 0.01, 0.02)
     scenario(tmp_path / "worst.kml", "Worst case", 0.01, 0.04, 0.08)
-    convert.members_in_process([str(tmp_path)], str(tmp_path / "out"), OPTIONS)
+    convert.members_in_process([tmp_path], tmp_path / "out", OPTIONS)
     made = ensemble.open(tmp_path / "out")
     assert made.manifest.kind == "scenarios"
     assert [member.name for member in made.members] == ["Best case", "Worst case"]
@@ -59,10 +59,10 @@ def test_each_file_is_a_scenario(tmp_path):
 def test_a_damaged_scenario_is_left_out(tmp_path):
     scenario(tmp_path / "a.kml", "A", 0.01)
     scenario(tmp_path / "b.kml", "B", 0.01, hour="13:00")
-    convert.members_in_process([str(tmp_path)], str(tmp_path / "out"), [*OPTIONS[:3], 60.0, "", ""])
+    convert.members_in_process([tmp_path], tmp_path / "out", [*OPTIONS[:3], 60.0, "", ""])
     made = ensemble.open(tmp_path / "out")
     assert [member.name for member in made.members] == ["A"]
     assert "not a time with an offset from UTC" in made.left_out[0].reason
     (tmp_path / "a.kml").unlink()
     with pytest.raises(InputError, match="none of 1 scenarios can be read"):
-        convert.members_in_process([str(tmp_path / "b.kml")], str(tmp_path / "other"), OPTIONS)
+        convert.members_in_process([tmp_path / "b.kml"], tmp_path / "other", OPTIONS)

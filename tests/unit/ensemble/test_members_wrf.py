@@ -15,7 +15,7 @@ OPTIONS = ["2014-09-17T04:45Z", "", "", 0.0, "", ""]
 
 def run(folder: Path, out: Path) -> tuple[ensemble.Ensemble, list[str]]:
     said: list[str] = []
-    convert.members_in_process([str(folder)], str(out), OPTIONS, tell=said.append)
+    convert.members_in_process([folder], out, OPTIONS, tell=said.append)
     return ensemble.open(out), said
 
 
@@ -82,7 +82,7 @@ def test_a_folder_for_each_member(tmp_path):
     write_grid(tmp_path / "all" / "c", "0 20 x\n10 30 50\n")
     options = [*OPTIONS[:2], "EPSG:32610", *OPTIONS[3:]]
     said: list[str] = []
-    convert.members_in_process([str(tmp_path / "all")], str(tmp_path / "out"), options, tell=said.append)
+    convert.members_in_process([tmp_path / "all"], tmp_path / "out", options, tell=said.append)
     made = ensemble.open(tmp_path / "out")
     assert [member.name for member in made.members] == ["a", "b"]
     assert made.left_out[0].name == "c"
@@ -92,4 +92,4 @@ def test_a_folder_for_each_member(tmp_path):
     assert made.horizon >= 50 * 60.0
     write_grid(tmp_path / "all" / "d", "0 20 40\n10 30 50\n", corner=700015.0)
     with pytest.raises(InputError, match="d: has other cells than a; convert each folder to a run"):
-        convert.members_in_process([str(tmp_path / "all")], str(tmp_path / "more"), options)
+        convert.members_in_process([tmp_path / "all"], tmp_path / "more", options)

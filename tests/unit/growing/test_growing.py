@@ -21,8 +21,7 @@ BEGIN = datetime(2020, 7, 1, 20, tzinfo=UTC)
 def in_process(monkeypatch):
     """Run steps in this process; tests/system starts workers."""
     monkeypatch.setenv("HDF5_USE_FILE_LOCKING", "FALSE")
-    call = lambda _, task, **__: watch.in_process(**task)  # noqa: E731
-    monkeypatch.setattr(watch.worker, "run", call)
+    monkeypatch.setattr(watch.worker, "run", lambda work, **_: work())
 
 
 class Watched:
@@ -223,8 +222,7 @@ def test_wrf_files_become_the_run_that_a_conversion_makes(in_process, tmp_path):
         file.write("wrf: SUCCESS COMPLETE WRF\n")
     look.poll()
     assert look.state == "ended"
-    paths = [str(path) for path in files]
-    convert.in_process(paths, str(tmp_path / "whole"), ["", "", "", 0.0, "Fire", ""])
+    convert.in_process(list(files), tmp_path / "whole", ["", "", "", 0.0, "Fire", ""])
     found, whole = readers.open(tmp_path / "DIR"), readers.open(tmp_path / "whole")
     assert (found.start, list(found.times)) == (whole.start, list(whole.times))
     np.testing.assert_array_equal(found.fuel_arrival_time(), whole.fuel_arrival_time())

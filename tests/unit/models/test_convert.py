@@ -1,6 +1,7 @@
 """Conversion as a user sees it: damaged files, stops, existing files; a run is complete or absent."""
 
 import io
+import pickle
 import sys
 import threading
 import time
@@ -8,6 +9,7 @@ import warnings
 from collections import defaultdict
 from types import SimpleNamespace
 
+import child_work
 import damage
 import model_files as made
 import numpy as np
@@ -24,7 +26,7 @@ COUNT = len(damage.CUTS) + len(damage.WAYS)  # each once; tests/system/fuzz/conv
 
 def in_process(paths, out, **options):
     asked = [options.get(name, "") for name in ("start", "at", "projection")] + [0.0]
-    convert.in_process([str(path) for path in paths], str(out), asked)
+    convert.in_process(list(paths), out, asked)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="forks")
@@ -80,9 +82,8 @@ def test_what_makes_no_run_leaves_none(tmp_path):
 
 def test_a_process_that_crashes_is_one_line(tmp_path, monkeypatch, capfd):
     paths, _ = damage.files_of("forefire", tmp_path)
-    monkeypatch.setattr(convert, "__name__", "test_convert_crash")
-    (tmp_path / "test_convert_crash.py").write_text("import os\ndef in_process(**_): os.abort()\n")
-    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")
+    child_work.importable(monkeypatch)
+    monkeypatch.setattr(convert, "in_process", child_work.abort)
     assert cli.main(["convert", str(paths[0]), "--out", str(tmp_path / "out")]) == 1
     text = capfd.readouterr().err.strip().splitlines()
     assert len(text) == 1
@@ -93,29 +94,19 @@ def test_a_process_that_crashes_is_one_line(tmp_path, monkeypatch, capfd):
 
 def test_a_file_that_cannot_be_used_is_named(tmp_path, monkeypatch):
     """By the process that does the work: without a log of Blender or the number of an error."""
-    monkeypatch.setattr(convert, "__name__", "test_convert_unusable")
-    code = "def in_process(**_): open('/nowhere/at_all', 'w')\n"
-    (tmp_path / "test_convert_unusable.py").write_text(code)
-    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")
+    child_work.importable(monkeypatch)
+    monkeypatch.setattr(convert, "in_process", child_work.open_missing)
     paths, _ = damage.files_of("forefire", tmp_path)
     with pytest.raises(InputError) as caught:
         convert.run(paths, tmp_path / "out")
     assert str(caught.value) == "/nowhere/at_all: No such file or directory"
 
 
-HANGING = """
-import re
-def in_process(**_):
-    re.match("(a+)+$", "a" * 60 + "b")  # for longer than the Sun burns, in C and with Python held
-"""
-
-
 def test_a_process_that_hangs_is_one_line(tmp_path, monkeypatch, capfd):
     paths, _ = damage.files_of("forefire", tmp_path)
-    monkeypatch.setattr(convert, "__name__", "test_convert_hangs")
+    child_work.importable(monkeypatch)
+    monkeypatch.setattr(convert, "in_process", child_work.hang)
     monkeypatch.setattr(convert, "PATIENCE", 1.0)
-    (tmp_path / "test_convert_hangs.py").write_text(HANGING)
-    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")
     assert cli.main(["convert", str(paths[0]), "--out", str(tmp_path / "out")]) == 1
     (line,) = capfd.readouterr().err.strip().splitlines()
     assert f"{paths[0]}: reading it made no progress for 1 s" in line
@@ -138,13 +129,14 @@ def test_patience_ends_with_what_is_silent_alone():
 
 def test_each_word_of_a_process_is_heard():
     class Child:
-        stdin, wait = io.StringIO(), staticmethod(lambda: 0)
-        stdout = iter(['{"sign": true}', '{"progress": [1, 2]}', '{"tell": "a"}', '{"result": 5}'])
+        stdin, wait = io.BytesIO(), staticmethod(lambda: 0)
+        answers = ("heartbeat", None), ("progress", (1, 2)), ("tell", "a"), ("result", 5)
+        stdout = io.BytesIO(b"a banner\n" + worker._START + b"".join(map(pickle.dumps, answers)))
 
     heard, told = [], []
     watch = SimpleNamespace(heard=lambda: heard.append(1))
-    assert worker._converse(Child, {}, lambda *_: None, told.append, watch) == {"result": 5}
-    assert (len(heard), told) == (4, ["a"])
+    assert worker._converse(Child, print, lambda *_: None, told.append, watch) == ("result", 5)
+    assert (len(heard), told) == (5, ["a"])
 
 
 def test_reading_says_that_it_goes_on(tmp_path, monkeypatch):
@@ -152,8 +144,8 @@ def test_reading_says_that_it_goes_on(tmp_path, monkeypatch):
     paths, _ = made.cfbm(tmp_path, count=5)
     signs = []
     monkeypatch.setattr(heartbeat, "_OFTEN", 0.0)
-    monkeypatch.setattr(worker, "send_heartbeat", lambda: signs.append(1))
-    in_process(paths, tmp_path / "out")
+    with heartbeat.to(lambda: signs.append(1)):
+        in_process(paths, tmp_path / "out")
     assert len(signs) > 5 * 6  # opened, and five fields of each
 
 
@@ -191,7 +183,7 @@ def test_a_stopped_conversion_goes_on_and_is_no_run_before(tmp_path, monkeypatch
         return progress
 
     monkeypatch.setattr(write, "_OFTEN", 1)  # bytes: a journal entry each time
-    words = [[str(path) for path in paths], str(out), ["", "", "", 0.0]]
+    words = [paths, out, ["", "", "", 0.0]]
     with pytest.raises(KeyboardInterrupt):
         convert.in_process(*words, progress=stop_at(4))
     assert not out.exists()
@@ -216,10 +208,10 @@ def test_what_was_made_of_other_files_is_made_again(tmp_path, monkeypatch):
             raise KeyboardInterrupt
 
     monkeypatch.setattr(write, "_OFTEN", 1)
-    words = [str(out), ["", "", "", 0.0]]
+    words = [out, ["", "", "", 0.0]]
     with pytest.raises(KeyboardInterrupt):
-        convert.in_process([str(path) for path in paths], *words, progress=progress)
-    convert.in_process([str(path) for path in paths[:4]], *words, progress=progress)
+        convert.in_process(list(paths), *words, progress=progress)
+    convert.in_process(paths[:4], *words, progress=progress)
     assert asked[5] == 0
     assert len(runs.open(out).times) == 4
 
@@ -280,7 +272,7 @@ def test_a_task_without_blender(monkeypatch):
     """It ends in one line and says nothing of Blender."""
     monkeypatch.setattr(sys, "stdout", io.StringIO())
     with pytest.raises(Error) as caught:
-        worker.run("firetwin.jobs.convert:nothing", {}, blender=False)
+        worker.run(convert.in_process, blender=False)
     assert "Blender" not in str(caught.value)
 
 
@@ -300,8 +292,8 @@ def test_what_is_no_models_output_is_told_apart(tmp_path):
     absurd = made.forefire(tmp_path / "a.nc", np.full((5, 5), -9999.0))
 
     def one(name, tell):
-        files = [str(path) for path in readers.gathered([tmp_path / name])]
-        convert.in_process(files, str(tmp_path / "out"), ["2020-07-01", "", "", 0.0], tell=tell)
+        files = readers.gathered([tmp_path / name])
+        convert.in_process(files, tmp_path / "out", ["2020-07-01", "", "", 0.0], tell=tell)
 
     for name, words in {
         "empty": "folder without files", "zero.nc": "is empty", "text.nc": "does not begin as a .nc",

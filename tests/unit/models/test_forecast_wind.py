@@ -37,7 +37,7 @@ def arrivals(tmp_path: Path) -> Path:
 
 
 def converted(arrivals: Path, out: Path, *wind: Path):
-    convert.in_process([str(arrivals)], str(out), OPTIONS, wind=[str(path) for path in wind])
+    convert.in_process([arrivals], out, OPTIONS, wind=list(wind))
     return runs.open(out)
 
 

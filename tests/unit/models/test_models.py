@@ -328,8 +328,8 @@ ff.execute("save[]")
 """
     subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True, timeout=60, capture_output=True)
     convert.in_process(
-        [str(tmp_path / name) for name in ("ForeFire.0.nc", "front.geojson", "front.json")],
-        str(tmp_path / "run"),
+        [tmp_path / name for name in ("ForeFire.0.nc", "front.geojson", "front.json")],
+        tmp_path / "run",
         ["", "", "", 0],
     )
     run = runs.open(tmp_path / "run")

@@ -51,7 +51,7 @@ def _observed(name):
 
 
 def _convert(path):
-    convert.in_process([str(path.with_name("a.npz"))], str(path.with_name("out")), ["2020-07-01", "", "", 0])
+    convert.in_process([path.with_name("a.npz")], path.with_name("out"), ["2020-07-01", "", "", 0])
 
 
 def _read_netcdf(path):

@@ -11,8 +11,10 @@ import subprocess
 import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
+import child_work
 import firetwin
 import numpy as np
 import pytest
@@ -240,21 +242,14 @@ def test_a_worker_that_is_gone_is_no_error_on_windows_either(monkeypatch):
     child.stdin.close()
     monkeypatch.setattr(child, "stdin", Gone())
     with worker._Watchdog(child, 0.0) as watch:
-        assert worker._converse(child, {}, progress=None, tell=None, watch=watch) == {}
+        assert worker._converse(child, child_work.abort, progress=None, tell=None, watch=watch) == ("", None)
     worker._end(child)
 
 
 def test_a_log_that_was_tidied_away_does_not_spoil_what_was_done(tmp_path, monkeypatch):
-    (tmp_path / "tidy.py").write_text(
-        "from pathlib import Path\n"
-        "def up(progress, tell):\n"
-        f"    [log.unlink() for log in Path({str(tmp_path)!r}).glob('firetwin-*.log')]\n"
-        "    return 7\n"
-    )
-    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
-    monkeypatch.setenv("PYTHONPATH", path)
+    child_work.importable(monkeypatch)
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    assert worker.run("tidy:up", {}, blender=False) == 7
+    assert worker.run(partial(child_work.remove_logs, tmp_path), blender=False) == 7
 
 
 @pytest.fixture(params=["png", "exr"])
@@ -346,29 +341,8 @@ import firetwin.render.store, firetwin.leases, firetwin.jobs.render, firetwin.sm
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
-RAISING = """
-from firetwin.errors import Error, TryAgainError, UnavailableError, full_disk_error, input_error
-
-
-def work(what, **_):
-    raise {
-        "full": full_disk_error("a.png"),
-        "room": OSError(28, "No space left on device", "b.png"),
-        "nameless": OSError(28, "No space left on device"),
-        "other": OSError(5, "Input/output error", "c.png"),
-        "device": TryAgainError("no GPU"),
-        "asked": input_error("scene.toml", "no GPU", line=3, column=4, kind=UnavailableError),
-        "wrong": input_error("scene.toml", "the disk is full, says a name", line=3, column=4),
-        "plain": Error("stopped"),
-        "bug": ValueError("odd"),
-    }[what]
-"""
-
-
-def test_errors_cross_processes_with_their_kind(tmp_path, monkeypatch):
-    (tmp_path / "raising.py").write_text(RAISING)
-    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
-    monkeypatch.setenv("PYTHONPATH", path)
+def test_errors_cross_processes_with_their_kind(monkeypatch):
+    child_work.importable(monkeypatch)
     expected = {
         "full": (FullDiskError, f"a.png: {DISK_FULL}", True),
         "room": (FullDiskError, f"b.png: {DISK_FULL}", True),
@@ -380,8 +354,8 @@ def test_errors_cross_processes_with_their_kind(tmp_path, monkeypatch):
         "plain": (Error, "stopped", False),
         "bug": (Error, "ValueError: odd", False),
     }
-    for what, (kind, text, again) in expected.items():
+    for fault, (kind, text, again) in expected.items():
         with pytest.raises(Error) as caught:
-            worker.run("raising:work", {"what": what}, blender=False)
+            worker.run(partial(child_work.fail, fault), blender=False)
         assert (type(caught.value), str(caught.value)) == (kind, text)
         assert is_worth_another_try(caught.value) == again

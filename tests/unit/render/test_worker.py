@@ -1,12 +1,35 @@
-"""Worker processes on disks that are full or read-only."""
+"""Worker processes: their pipe, and disks that are full or read-only."""
 
 import errno
 import tempfile
+from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 
+import child_work
+import numpy as np
 import pytest
 from firetwin.errors import FullDiskError, InputError
+from firetwin.export.tracks import Track
 from firetwin.jobs import worker
+
+
+def test_dataclasses_and_arrays_cross_both_ways_beside_output_of_libraries(monkeypatch):
+    """Arrays larger than a pipe's buffer, with bytes of ends of lines."""
+    child_work.importable(monkeypatch)
+    many = 300_000
+    sent = Track(
+        "drone\r\n\x1a",
+        np.arange(many),
+        (datetime(2014, 9, 17, tzinfo=UTC),),
+        *(np.full((many, 3), 1.5, np.float64) for _ in range(4)),
+        36.0,
+        "perspective",
+    )
+    back = worker.run(partial(child_work.send_back, sent), blender=False)
+    assert (type(back), back.name, back.times) == (Track, sent.name, sent.times)
+    np.testing.assert_array_equal(back.frames, sent.frames)
+    np.testing.assert_array_equal(back.geodetic, sent.geodetic)
 
 
 @pytest.mark.parametrize(("code", "kind"), [(errno.ENOSPC, FullDiskError), (errno.EROFS, InputError)])
@@ -16,7 +39,7 @@ def test_a_log_that_cannot_be_written_is_one_line(monkeypatch, code, kind):
 
     monkeypatch.setattr(tempfile, "NamedTemporaryFile", fail)
     with pytest.raises(kind, match="the temporary folder: "):
-        worker.run("a:b", {})
+        worker.run(child_work.abort)
 
 
 def test_a_log_stays_on_a_disk_that_became_read_only(monkeypatch, tmp_path):

@@ -19,7 +19,7 @@ def archive(path):
 def converted(paths, out, **said):
     words = [said.get(name, "") for name in ("start", "at", "projection")] + [0.0]
     words += [said.get("name", ""), said.get("zone", "")]
-    convert.in_process([str(path) for path in paths], str(out), words)
+    convert.in_process(list(paths), out, words)
     return runs.open(out)
 
 

@@ -19,11 +19,6 @@ def test_a_choice_is_a_scene_file_with_other_things_in_its_place(make_run, tmp_p
         ShotSource(str(tmp_path / "scene.toml")).shot()
 
 
-def test_a_source_survives_its_plain_form():
-    source = ShotSource(scene="here.toml", engine="eevee")
-    assert ShotSource(**source.plain()) == source
-
-
 def test_a_camera_that_ridges_hide_is_told_and_stays(make_run, tmp_path):
     """A ridge stands between a low lookout and the fire."""
     fields = small_fields()

@@ -31,13 +31,6 @@ def blender(monkeypatch):
     return make
 
 
-def test_access_goes_to_another_process_and_back():
-    access = TileAccess(strict=True, online=False, hosts=("a.example", "b.example"), private=True)
-    assert job.from_plain(access.plain()) == access
-    network = access.network()
-    assert (network.online, network.hosts, network.private) == (False, ("a.example", "b.example"), True)
-
-
 @pytest.mark.parametrize(
     ("option", "setting", "opened"),
     [("", "", False), ("", ".", True), ("DIR", "", True), ("DIR", "elsewhere", True)],
@@ -46,7 +39,7 @@ def test_a_folder_above_comes_from_the_option_or_else_from_the_scene_file(tmp_pa
     folder = write(tmp_path, {"a/tileset.json": tileset(tile(8.0, "../x.glb")), "x.glb": GLB})
     tiles = TileSettings(sources=("a",), root=setting)
     shot = SimpleNamespace(settings=Settings(path=tmp_path / "scene.toml", tiles=tiles))
-    access = job.from_plain(TileAccess(root=str(folder) if option else "").plain())
+    access = TileAccess(root=str(folder) if option else "")
     loader = Loader(open_tileset(shot, 0, access))
     if opened:
         loader.check([0])

@@ -9,7 +9,7 @@ import os
 import signal
 import threading
 import time
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 
 import geodesy
@@ -143,7 +143,7 @@ IN_PROCESSES = decode.run
 
 def here(contents, progress):
     """Decode in this process, which takes a tenth of the time; tests of decoders start some."""
-    left = [asdict(each) for each in contents if decoded.read_summary(Path(each.out)) is None]
+    left = [each for each in contents if decoded.read_summary(Path(each.out)) is None]
     return decode.in_process(left, progress, print)
 
 
