@@ -84,7 +84,7 @@ def run(bench: Bench) -> None:
     case = f"a stand of {STEMS:,} stems"
     speed = bench.race(case, tools, stems, "stem")[tools[1].label].speed(stems / 1e6)
     if bench.blender():
-        points, seconds = worker.run(f"{__name__}:distribute", {})
+        points, seconds = worker.run(distribute)
         bench.row(f"a field of {points:,} points", POISSON, Times(tuple(seconds)), points, "point", threads=2)
         theirs = points / 1e6 / float(np.median(seconds))
         bench.target("Speed of a stand, two threads", speed, theirs, "Mstem/s", rival=POISSON)

@@ -9,7 +9,8 @@ from ..command import FILMS, Command, add_verb
 
 VERBS = ("make", "formats", "check", "draw")
 _MAKE = VERBS[0]
-_FORMATS = "coco,yolo"
+FORMATS = "coco,yolo"
+"""Formats by default."""
 
 _DETAIL = """\
 Renders labelled samples of the runs of a plan, for the training of detectors of fire and smoke. Each sample
@@ -46,8 +47,8 @@ def _add(parser: argparse.ArgumentParser) -> None:
     make.add_argument("--json", action="store_true", help="write the estimate as JSON")
     formats = add_verb(verbs, "formats", "write a finished data set in other formats")
     for each in (make, formats):
-        help = f"formats of the labels, such as coco,yolo,hf, or all ({_FORMATS})"
-        each.add_argument("--format", metavar="LIST", default=_FORMATS, help=help)
+        help = f"formats of the labels, such as coco,yolo,hf, or all ({FORMATS})"
+        each.add_argument("--format", metavar="LIST", default=FORMATS, help=help)
     check = add_verb(verbs, "check", "check a finished data set; the exit status is 1 if it has faults")
     draw = add_verb(verbs, "draw", "draw the labels of samples onto their pictures")
     draw.add_argument(

@@ -26,35 +26,45 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     names = formats.names(arguments.format)
     if arguments.verb == "formats":
-        _finish(arguments.folder, names)
+        finish_set(arguments.folder, names)
         return 0
-    plan = plan_file.read(arguments.plan)
-    if any(run.ensemble for run in plan.runs):
-        with produce.alone(arguments.out, "members"):
-            members.convert(plan, Reporter("converting"), say)
-    production = produce.prepare(plan, arguments.out, arguments.only, Reporter())
+    production = prepare(arguments.plan, arguments.out, arguments.only)
     if arguments.estimate and arguments.json:
         result(json.dumps(_facts(production), indent=1))
         return 0
-    lines = production.estimate().lines() + _describe(production)
+    lines = production.estimate().lines() + describe(production)
     if arguments.estimate:
         result("\n".join(lines))
         return 0
     for line in lines:
         say(line)
+    make(production)
+    if arguments.only:
+        result(arguments.out)
+        return 0
+    finish_set(arguments.out, names)
+    return 0
+
+
+def prepare(path: Path, out: Path, only: str = "") -> Production:
+    """Read a plan, convert the members of its ensembles, and draw its samples."""
+    plan = plan_file.read(path)
+    if any(run.ensemble for run in plan.runs):
+        with produce.alone(out, "members"):
+            members.convert(plan, Reporter("converting"), say)
+    return produce.prepare(plan, out, only, Reporter())
+
+
+def make(production: Production) -> None:
+    """Make the missing samples of a production, and show the progress."""
     reporter = Reporter(produce.SAMPLES)
     try:
         produce.run(production, sample_job.make, reporter, say)
     finally:
         reporter.close()
-    if arguments.only:
-        result(arguments.out)
-        return 0
-    _finish(arguments.out, names)
-    return 0
 
 
-def _describe(production: Production) -> list[str]:
+def describe(production: Production) -> list[str]:
     """Describe the draws of a production: splits, and cameras that were rejected."""
     draws = production.draws
     splits: dict[str, int] = {}
@@ -97,7 +107,7 @@ def _check(folder: Path) -> int:
     return 1 if faults else 0
 
 
-def _finish(out: Path, names: tuple[str, ...]) -> None:
+def finish_set(out: Path, names: tuple[str, ...]) -> None:
     """Write formats, card, report and hashes of a data set; one process at a time."""
     with produce.alone(out, "finish"):
         produce.remove_parts(out)

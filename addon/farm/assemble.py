@@ -16,9 +16,9 @@ from ..render.store import Store
 from ..run import content
 from ..shot.schema.frame_list import FrameList
 from ..shot.shot import Shot
-from . import dataset_job, entries, plan, task
+from . import divided, entries, plan, task
 from .entries import Entry
-from .plan import SAMPLE, Job
+from .plan import Job
 from .private import verified_entries
 
 NOT_MADE, DAMAGED, OTHER = "not rendered", "damaged or replaced", "rendered with other settings"
@@ -35,10 +35,10 @@ def run(
     """
     job = plan.read(out)
     choice = task.job_source(job, out, scene)
-    if job.samples:
-        if not (lacking := dataset_job.missing_pictures(job, out)):
-            dataset_job.finish(out, choice.scene)
-        return lacking
+    if job.room:
+        if not (unfinished := divided.missing(job, out)):
+            divided.work(job).finish(Path(choice.scene), out)
+        return unfinished
     shot = choice.shot()
     made_with = fingerprints(job, shot, progress)
     intact, missing = check_pictures(job, out, made_with)
@@ -112,13 +112,6 @@ def format_missing(missing: dict[Picture, str]) -> Iterator[str]:
 def tasks_of_pictures(job: Job, missing: Iterable[Picture]) -> list[int]:
     """List the numbers of the tasks that render these pictures."""
     wanted = {(each.camera.partition("@")[0], each.frame) for each in missing}
-    if job.samples:
-        frames = {
-            number: FrameList(job.task(number).frames).frames(job.count) for number in job.numbers("render")
-        }
-        return [
-            number for number, listed in frames.items() if any((SAMPLE, each) in wanted for each in listed)
-        ]
     return [
         number
         for number in job.numbers("render")

@@ -27,8 +27,6 @@ from . import assets
 FOLDER, FILE, CACHE = "farm", "job.json", "cache"
 CHUNK = 30
 """Maximum frames per task; `docs/how/farm.md` has the measured overhead of a task."""
-SAMPLE = "sample"
-"""Camera of the pictures of a data set."""
 _FORMAT = 1
 
 
@@ -71,9 +69,8 @@ class Job:
         Bake tasks, then render tasks.
     assets
         Files that tasks read (absolute paths).
-    samples
-        True if `scene` is the plan of a data set: `count` is its number of samples, and the frames of tasks
-        are samples (see `dataset_job`).
+    room
+        Room whose work the file `scene` describes, with its units as frames (see `divided`); "" for a film.
     """
 
     scene: str
@@ -84,7 +81,7 @@ class Job:
     passes: dict[str, tuple[str, ...]]
     tasks: tuple[Task, ...]
     assets: tuple[str, ...]
-    samples: bool = False
+    room: str = ""
 
     def numbers(self, stage: str) -> list[int]:
         """List the numbers of the tasks of a stage."""
@@ -110,10 +107,6 @@ class Job:
         """Yield the pictures of a task."""
         if task.stage != "render":
             return
-        if self.samples:
-            yield from (
-                Picture(SAMPLE, index, "labels") for index in FrameList(task.frames).frames(self.count)
-            )
         for camera in task.cameras:
             listed = self.frames(task, camera)
             for view in self.views(camera):

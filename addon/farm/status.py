@@ -15,7 +15,7 @@ from typing import Any
 from ..progress import count, duration
 from ..shot import passes
 from ..shot.schema.frame_list import FrameList
-from . import dataset_job, entries, lost, plan
+from . import divided, entries, lost, plan
 from .entries import Attempt
 from .plan import Job
 
@@ -136,10 +136,10 @@ def _made(job: Job, number: int, tried: list[Attempt], there: _FolderListings) -
     finished_files = every = lacking = 0
     if task.stage != "render":
         return 0, 0, 0
-    if job.samples:
+    if job.room:
         asked = FrameList(task.frames).frames(job.count)
-        finished = len(asked) - len(dataset_job.missing(there.out, asked))
-        return finished, len(asked), len(asked) - finished
+        lacking = len(divided.work(job).missing(there.out, asked))
+        return len(asked) - lacking, len(asked), lacking
     for camera in task.cameras:
         listed = job.frames(task, camera)
         for view in job.views(camera):

@@ -16,7 +16,7 @@ from ..errors import Error, UsageError
 from ..jobs.worker import Stop, StoppedError
 from ..progress import MessageCallback, Progress, count, no_message, silent
 from ..render.picture import Picture
-from . import assemble, assets, dataset_job, plan, status, task
+from . import assemble, assets, divided, plan, status, task
 from .engines import Batch, known
 from .plan import Job
 
@@ -67,8 +67,8 @@ def last_submission(out: Path) -> Submission:
 def find_missing(out: Path, progress: Progress = silent) -> tuple[dict[Picture, str], list[int]]:
     """Find missing and damaged pictures, each with the reason, and the numbers of their tasks."""
     job = plan.read(out)
-    if job.samples:
-        missing = dataset_job.missing_pictures(job, out)
+    if job.room:
+        missing = divided.missing(job, out)
         return missing, assemble.tasks_of_pictures(job, missing)
     shot = task.job_source(job, out).shot()
     _, missing = assemble.check_pictures(job, out, assemble.fingerprints(job, shot, progress))

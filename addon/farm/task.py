@@ -17,7 +17,7 @@ from ..render import fingerprint
 from ..run.content import sha256
 from ..shot.schema.frame_list import FrameList
 from ..shot.source import ShotSource
-from . import dataset_job, entries, plan
+from . import divided, entries, plan
 from .entries import Log
 from .plan import Job, Task
 from .private import PrivateFolder, verified_entries
@@ -111,10 +111,9 @@ def _logged(log: Log, work: Callable[[], None]) -> None:
 
 def _task(job: Job, choice: ShotSource, out: Path, number: int, log: Log, progress: Progress) -> None:
     task = job.task(number)
-    words = f"{' and '.join(task.cameras)}, frames {task.frames}" if task.cameras else task.frames
-    print(f"openjd_status: {task.stage} {words}", flush=True)
-    if job.samples:
-        dataset_job.make_samples(out, task.frames, choice.scene)
+    print(f"openjd_status: {task.stage} {' and '.join(task.cameras)}, frames {task.frames}", flush=True)
+    if job.room:
+        divided.work(job).make(Path(choice.scene), out, task.frames)
     elif task.stage == "bake":
         _bake(job, choice, task, progress)
     else:

@@ -13,8 +13,7 @@ from ..auto_framing import fitted_scene
 from ..errors import Error, UsageError
 from ..progress import Reporter, count, result, say
 from ..shot.schema.frame_list import FrameList
-from ..shot.source import ShotSource
-from . import assemble, dataset_job, plan, status, submission, task
+from . import assemble, divided, plan, status, submission, task
 from .submission import Submission
 
 _MAX_TASK_NUMBER = 10**9 - 1  # far above any real number of tasks
@@ -22,13 +21,8 @@ _MAX_TASK_NUMBER = 10**9 - 1  # far above any real number of tasks
 
 def run(arguments: argparse.Namespace) -> int | None:
     """Run the requested verb; returns the exit status."""
-    if arguments.verb == "plan" and dataset_job.is_plan(arguments.scene):
-        run_dataset_plan(arguments)
-        return 0
-    if arguments.verb == "plan":
-        run_plan(arguments, fitted_scene.find_source(arguments))
-        return 0
     verbs: dict[str, Callable[[argparse.Namespace], int | None]] = {
+        "plan": run_plan,
         "status": run_status,
         "resume": run_resume,
         "cancel": run_cancel,
@@ -38,24 +32,16 @@ def run(arguments: argparse.Namespace) -> int | None:
     return verbs[arguments.verb](arguments)
 
 
-def run_plan(arguments: argparse.Namespace, choice: ShotSource) -> None:
-    """Plan a film; print the command that submits it, or run that command."""
-    scene, out = Path(choice.scene).absolute(), arguments.out.absolute()
-    shot = choice.shot()
-    job = plan.make_job(shot, scene, arguments.chunk or plan.CHUNK)
-    say(shot.describe_film())
-    _submit_job(arguments, job, out)
-
-
-def run_dataset_plan(arguments: argparse.Namespace) -> None:
-    """Plan a data set; print the command that submits it, or run that command."""
-    out = arguments.out.absolute()
-    job = dataset_job.make_job(arguments.scene.absolute(), out, arguments.chunk or plan.CHUNK)
-    _submit_job(arguments, job, out)
-
-
-def _submit_job(arguments: argparse.Namespace, job: plan.Job, out: Path) -> None:
-    """Write a job and the files of its scheduler; submit it, or print the command."""
+def run_plan(arguments: argparse.Namespace) -> None:
+    """Plan a film or the work of another room; print the command that submits it, or run that command."""
+    out, size = arguments.out.absolute(), arguments.chunk or plan.CHUNK
+    if room := divided.find(arguments.scene):
+        job = divided.make_job(room, arguments.scene.absolute(), out, size)
+    else:
+        choice = fitted_scene.find_source(arguments)
+        shot = choice.shot()
+        job = plan.make_job(shot, Path(choice.scene).absolute(), size)
+        say(shot.describe_film())
     plan.write(job, out)
     for line in submission.describe(job, out):
         say(line)

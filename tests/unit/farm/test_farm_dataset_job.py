@@ -1,43 +1,39 @@
 """Farm jobs of data sets: tasks of complete scenes, status by finished samples."""
 
-import json
-
 import pytest
-from firetwin.dataset import truth
-from firetwin.farm import assemble, dataset_job, plan, status, submission
+from firetwin.dataset import farm_work, truth
+from firetwin.farm import assemble, divided, plan, status, submission, task
 from firetwin.farm.engines import Batch, known
 from firetwin.render import fingerprint
 
-SCENES = ["1,4-5", "2-3", "6-12", "13"]
+SCENES = [1, 4, 5], [2, 3], [*range(6, 13)], [13]
 
 
 @pytest.fixture
 def job(tmp_path, monkeypatch):
     calls = []
-
-    def call(arguments, capture=False):
-        calls.append(arguments)
-        return json.dumps({"count": 13, "scenes": SCENES})
-
-    monkeypatch.setattr(dataset_job, "_call", call)
+    monkeypatch.setattr(farm_work, "split", lambda plan, out: (13, SCENES))
+    for name in ("make", "finish"):
+        monkeypatch.setattr(farm_work, name, lambda *words, name=name: calls.append((name, *words)))
     (tmp_path / "plan.toml").write_text('[[runs]]\nplace = "A"\nrun = "a"\n')
-    found = dataset_job.make_job(tmp_path / "plan.toml", tmp_path / "out", 6)
+    found = divided.make_job("dataset", tmp_path / "plan.toml", tmp_path / "out", 6)
+    monkeypatch.setattr(fingerprint, "versions", lambda: found.versions)
     plan.write(found, tmp_path / "out")
     return found, tmp_path / "out", calls
 
 
 def write(out, index):
-    path = out / dataset_job.FOLDER / truth.FOLDER / f"{truth.stem(index)}.json"
-    assert path == truth.path(out / dataset_job.FOLDER, index)
+    path = truth.path(out / farm_work.FOLDER, index)
     path.parent.mkdir(parents=True, exist_ok=True)
     path.touch()
 
 
 def test_a_task_has_complete_scenes(job):
     found, out, calls = job
-    assert [task.frames for task in found.tasks] == ["1-5", "6-12", "13"]
+    assert [each.frames for each in found.tasks] == ["1-5", "6-12", "13"]
     assert plan.read(out) == found
-    assert calls == [[str(out.parent / "plan.toml"), "--out", str(out / "dataset"), "--estimate", "--json"]]
+    task.run(out, [2])
+    assert calls == [("make", out.parent / "plan.toml", out, "6-12")]
 
 
 def test_a_plan_is_told_from_a_scene_by_its_places(tmp_path):
@@ -48,8 +44,8 @@ def test_a_plan_is_told_from_a_scene_by_its_places(tmp_path):
         ("not TOML", False),
     ):
         path.write_text(text)
-        assert dataset_job.is_plan(path) == is_plan
-    assert not dataset_job.is_plan(tmp_path)
+        assert divided.find(path) == ("dataset" if is_plan else "")
+    assert divided.find(tmp_path) == ""
 
 
 def test_progress_and_resubmission_go_by_finished_samples(job):
@@ -66,15 +62,14 @@ def test_progress_and_resubmission_go_by_finished_samples(job):
     assert sum(1 for task in found.tasks for _ in found.pictures(task)) == 13
 
 
-def test_the_last_stage_finishes_a_complete_data_set_alone(job, monkeypatch):
-    found, out, calls = job
-    monkeypatch.setattr(fingerprint, "versions", lambda: found.versions)
+def test_the_last_stage_finishes_a_complete_data_set_alone(job):
+    _, out, calls = job
     assert len(assemble.run(out)) == 13
-    assert len(calls) == 1
+    assert not calls
     for index in range(1, 14):
         write(out, index)
     assert assemble.run(out) == {}
-    assert calls[1:] == [[str(out.parent / "plan.toml"), "--out", str(out / "dataset")]]
+    assert calls == [("finish", out.parent / "plan.toml", out)]
 
 
 @pytest.mark.parametrize("engine", sorted(known()))

@@ -1,0 +1,63 @@
+"""Work of other rooms that a farm divides: a room can have a module `farm_work`, which declares how.
+
+``sniff(path)`` recognises the file that describes the work. ``split(path, out)`` returns the number of units
+and lists of those that are made together, ``make(path, out, units)`` makes the units of a list such as
+``1-20``, ``missing(out, units)`` lists the unfinished ones, and ``finish(path, out)`` completes the work. The
+constants `UNIT` and `KIND` name a unit and its result, as a camera and a pass name a picture.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import ModuleType
+
+from .. import plugins
+from ..render import fingerprint
+from ..render.picture import Picture
+from ..run.content import sha256
+from ..shot.schema.frame_list import FrameList
+from .plan import Job, Task
+
+
+def find(path: Path) -> str:
+    """Return the room whose work a file describes; "" for a scene file or a run."""
+    return next((room for room, work in _works().items() if work.sniff(path)), "")
+
+
+def work(job: Job) -> ModuleType:
+    """Return the module of the room of a job."""
+    return _works()[job.room]
+
+
+def make_job(room: str, path: Path, out: Path, size: int) -> Job:
+    """Divide work into tasks of at most `size` units, or of the units that are made together."""
+    module = _works()[room]
+    count, groups = module.split(path, out)
+    tasks: list[list[int]] = []
+    for units in groups:
+        if tasks and len(tasks[-1]) + len(units) <= size:
+            tasks[-1] += units
+        else:
+            tasks.append(list(units))
+    return Job(
+        scene=str(path),
+        scene_sha256=sha256(path),
+        versions=fingerprint.versions(),
+        count=count,
+        camera_frames={module.UNIT: ""},
+        passes={module.UNIT: (module.KIND,)},
+        tasks=tuple(Task("render", (module.UNIT,), FrameList.of(sorted(each))) for each in tasks),
+        assets=(),
+        room=room,
+    )
+
+
+def missing(job: Job, out: Path) -> dict[Picture, str]:
+    """Find the units that are not finished, as pictures with the reason."""
+    module = work(job)
+    unfinished = module.missing(out, range(1, job.count + 1))
+    return {Picture(module.UNIT, unit, module.KIND): "not rendered" for unit in unfinished}
+
+
+def _works() -> dict[str, ModuleType]:
+    return plugins.parts(str(plugins.__package__), "farm_work")
