@@ -9,7 +9,7 @@ import bpy
 
 from ..errors import Error
 from ..progress import count
-from ..ui import choice, job, render, run, scene_file, working
+from ..ui import job, render, run, scene_file, working
 from ..ui.job import InThread, Steps
 from ..ui.menu_entries import Entry
 from ..ui.sidebar import SidebarPanel
@@ -59,7 +59,7 @@ class FIRETWIN_OT_export_to(Working, bpy.types.Operator):
         if not out:
             raise Error(render.NO_OUTPUT)
         request = ExportRequest(
-            choice.from_panel(panel), name, Path(out), panel.export_frames, smoke=panel.export_smoke
+            scene_file.shot_source(panel), name, Path(out), panel.export_frames, smoke=panel.export_smoke
         )
         made = yield InThread("exporting", lambda **callbacks: export_job.run(replace(request, **callbacks)))
         return f"Wrote {count(len(made), 'file')} to {out}"

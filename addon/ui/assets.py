@@ -9,7 +9,7 @@ import bpy
 
 from ..errors import Error
 from ..progress import count
-from . import asset_library, choice, render, run, scene_file
+from . import asset_library, render, run, scene_file
 from .job import InThread, Steps
 from .working import Working
 
@@ -38,7 +38,7 @@ class FIRETWIN_OT_assets(Working, bpy.types.Operator):
         if not out:
             raise Error(render.NO_OUTPUT)
         made = yield InThread(
-            "starting Blender", functools.partial(assets.run, choice.from_panel(settings), Path(out))
+            "starting Blender", functools.partial(assets.run, scene_file.shot_source(settings), Path(out))
         )
         asset_library.add(Path(out))
         return f"Wrote {count(made, 'asset')} to {out}; the asset browser lists them as {asset_library.NAME}"

@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 
 from ..blender import owned
-from . import choice, panel_state, queue, render, run, scene_file, working
+from . import panel_state, queue, render, run, scene_file, working
 from .sidebar import SidebarPanel
 from .text import draw_paragraph
 
@@ -55,7 +55,7 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
         }
         title = f"{camera or 'All cameras'}, {which[settings.which]}"
         try:
-            queue.add(title, scene, choice.from_panel(settings), asked, render_blend.run)
+            queue.add(title, scene, scene_file.shot_source(settings), asked, render_blend.run)
         except (RuntimeError, OSError) as error:
             self.report({"ERROR"}, f"The file cannot be copied: {' '.join(str(error).split())}")
             return {"CANCELLED"}

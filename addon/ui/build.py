@@ -19,15 +19,14 @@ from . import (
     auto_framing,
     camera_edits,
     changed_settings,
-    choice,
     job,
     keys,
     live,
-    panel_order,
     panel_state,
     preferences,
     quality,
     run,
+    scene_file,
     smoke_volumes,
     solve,
     target_scene,
@@ -119,7 +118,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     yield from auto_framing.reframe(uid)
     settings = owned.scene(uid).firetwin
     then = changed_settings.compute_digests(settings)
-    chosen, smoke = choice.from_panel(settings), settings.bake_smoke and "smoke" in parts
+    chosen, smoke = scene_file.shot_source(settings), settings.bake_smoke and "smoke" in parts
     if settings.tiles.sources:
         yield InThread("tiles", functools.partial(selection.prepare, chosen))
     shot, moving = yield InThread("reading the run", lambda **_: _read_shot(chosen, part == ALL))
@@ -264,7 +263,7 @@ class FIRETWIN_PT_build(SidebarPanel, bpy.types.Panel):
         if job.Job.current is None:
             row.menu(FIRETWIN_MT_parts.bl_idname, text="", icon="DOWNARROW_HLT")
         if settings.changed:
-            names = ", ".join(map(panel_order.title, settings.changed.split()))
+            names = ", ".join(map(keys.section_title, settings.changed.split()))
             draw_paragraph(context, layout.column(align=True), f"Changed since the build: {names}", "INFO")
         column = layout.column()
         column.enabled = job.Job.current is None

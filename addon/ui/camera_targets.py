@@ -12,7 +12,7 @@ from ..blender import compat, owned
 from ..errors import Error
 from ..scene.camera import ground_raycast, read_edits
 from ..shot.cameras import sparse_keys, targets
-from . import choice, go_to, navigation
+from . import go_to, navigation, scene_file
 from .job import InThread, Steps
 from .working import Working, report_errors
 
@@ -61,7 +61,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
                 raise Error(f'no place is called "{at}"; choose one from the list, or type coordinates')
             way = np.array([met])
         elif target in targets.MOVING:
-            chosen = choice.from_panel(scene.firetwin)
+            chosen = scene_file.shot_source(scene.firetwin)
             shot = yield InThread("reading the run", lambda **_: chosen.shot())
             yield "finding the fire"
             way = targets.follow(target, shot.bare_ground, shot.frames.times, _ABOVE)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import build, camera_list, changed_settings, job, panel_order, working
+from . import build, camera_list, changed_settings, job, sidebar, working
 from .sidebar import SidebarPanel
 
 
@@ -75,7 +75,7 @@ class FIRETWIN_PT_cameras(SidebarPanel, bpy.types.Panel):
     bl_idname = "FIRETWIN_PT_cameras"
     bl_label = "Cameras"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = panel_order.CAMERAS
+    bl_order = sidebar.CAMERAS
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         SidebarPanel.draw_header_preset(self, context)

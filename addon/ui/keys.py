@@ -81,6 +81,11 @@ def label(name: str) -> str:
     return name.upper() if name in _SHORT else sentence(name.replace("_", " "))
 
 
+def section_title(section: str) -> str:
+    """Return the title of the panel of a section of a scene file."""
+    return {"thermal": "Sensors"}.get(section, label(section))
+
+
 def heading(part: Field) -> str:
     """Return the panel label of a key, with its unit if Blender does not display it after the number."""
     unit = "UTC" if part.type is datetime else part.key.unit

@@ -9,7 +9,7 @@ import bpy
 from ..blender import owned
 from ..scene.live import switch
 from ..shot.shot import Shot
-from . import choice, panel_state, working
+from . import panel_state, scene_file, working
 from .job import InThread, Message, Steps
 from .working import Working
 
@@ -39,7 +39,7 @@ class FIRETWIN_OT_live(Working, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Read the shot, solve its smoke in a worker process, and build the live scene."""
-        uid, chosen = context.scene.session_uid, choice.from_panel(context.scene.firetwin)
+        uid, chosen = context.scene.session_uid, scene_file.shot_source(context.scene.firetwin)
         shot = yield InThread("reading the run", lambda **_: chosen.shot())
         if shot.settings.smoke.enabled:
             from ..jobs import bake

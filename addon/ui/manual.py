@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import functools
 import tomllib
-from fnmatch import fnmatchcase
 from pathlib import Path
 
 import bpy
@@ -99,11 +98,6 @@ def manual_map() -> tuple[str, tuple[tuple[str, str], ...]]:
     ]
     rest = [(f"{groups}*", "settings"), ("bpy.types.firetwin_*", "artists")]
     return _prefix(), tuple((pattern, _suffix(page)) for pattern, page in (*named, *settings, *rest))
-
-
-def operator_page(name: str) -> str | None:
-    """Return the page of an operator, such as ``camera_key``; None if it has none."""
-    return next((page for pattern, page in _OPERATORS.items() if fnmatchcase(name, pattern)), None)
 
 
 @functools.cache

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import feature_panels, manual, panel_order, sections
+from . import feature_panels, keys, manual, sections
 from .menu_entries import Entry, Line, Submenu
 
 _OWN: dict[str, tuple[Line, ...]] = {
@@ -162,7 +162,7 @@ class FIRETWIN_MT_reset(bpy.types.Menu):
 
     def draw(self, context: bpy.types.Context) -> None:
         for section in sections.sections():
-            text = f"Reset {panel_order.title(section.name).lower()} settings"
+            text = f"Reset {keys.section_title(section.name).lower()} settings"
             self.layout.operator("firetwin.reset", text=text).section = section.name
 
 

@@ -12,7 +12,7 @@ from ..shot.cameras import rigs, rotation
 from ..shot.cameras.lenses import LENSES
 from ..shot.cameras.rigs._view import View
 from ..shot.settings import Camera
-from . import camera_edits, camera_list, choice, job, keys, panel_state, run, working
+from . import camera_edits, camera_list, job, keys, panel_state, run, scene_file, working
 from .job import InThread, Message, Steps
 from .sidebar import SidebarPanel
 from .working import Working
@@ -126,7 +126,7 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
         name = next(name for n in range(1, 1000) if (name := kind if n == 1 else f"{kind}{n}") not in taken)
         item = camera_list.add(scene.firetwin, Camera(name, rig))
         try:
-            chosen = choice.from_panel(scene.firetwin)
+            chosen = scene_file.shot_source(scene.firetwin)
             shot = yield InThread("reading the run", lambda **_: chosen.shot())
         except Exception:
             panel = owned.scene(uid).firetwin

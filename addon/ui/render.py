@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..progress import count
-from . import choice, job, output_presets, panel_order, run, scene_file, working
+from . import job, output_presets, run, scene_file, sidebar, working
 from .job import InThread, Steps
 from .sidebar import SidebarPanel
 from .text import draw_paragraph
@@ -55,7 +55,7 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
         out = Path(scene_file.output_folder(settings))
         camera = None if settings.camera == "*" else settings.camera
         asked = render.RenderRequest(out, frames[settings.which], camera, resume=settings.resume)
-        chosen = choice.from_panel(settings)
+        chosen = scene_file.shot_source(settings)
         made = yield InThread("starting Blender", functools.partial(render.run, chosen, asked))
         if not made.pictures:
             return f"All pictures in {out} are finished"
@@ -68,7 +68,7 @@ class FIRETWIN_PT_render(SidebarPanel, bpy.types.Panel):
     bl_idname = "FIRETWIN_PT_render"
     bl_label = "Render"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = panel_order.RENDER
+    bl_order = sidebar.RENDER
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import keys, panel_order, run, working
+from . import keys, run, sidebar, working
 from .job import Job
 from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
@@ -16,7 +16,7 @@ class FIRETWIN_PT_report(SidebarPanel, bpy.types.Panel):
     bl_idname = "FIRETWIN_PT_report"
     bl_label = "Report"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = panel_order.REPORT
+    bl_order = sidebar.REPORT
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin

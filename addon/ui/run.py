@@ -14,7 +14,7 @@ from ..blender import owned
 from ..jobs.worker import StoppedError
 from ..run import readers
 from ..shot.settings import scene_file as file
-from . import auto_framing, changed_settings, choice, job, maps, preferences, scene_file, solve, working
+from . import auto_framing, changed_settings, job, maps, preferences, scene_file, solve, working
 from .job import InThread, Steps
 from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
@@ -98,7 +98,7 @@ def inspect_run(uid: int) -> Steps:
         auto_framing.apply_framing(owned.scene(uid).firetwin, facts["fits"])
         maps.show(owned.scene(uid).firetwin.run, images)
         yield from auto_framing.reframe(uid)
-        chosen = choice.from_panel(owned.scene(uid).firetwin)
+        chosen = scene_file.shot_source(owned.scene(uid).firetwin)
         yield InThread("reading the run", lambda **_: chosen.shot())
         yield from solve.estimate_cost(uid)
     except StoppedError:

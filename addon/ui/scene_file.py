@@ -17,6 +17,7 @@ from ..blender import compat
 from ..errors import Error
 from ..shot.schema import validate
 from ..shot.settings import Settings, scene_file, toml_update
+from ..shot.source import ShotSource
 from . import camera_edits, camera_list, keys, other_runs, preferences, sections
 
 
@@ -55,6 +56,12 @@ def fill(scene: bpy.types.Scene, whole: Settings, inspect: bool = True) -> None:
         panel.run = run
     else:  # without its update callback
         compat.stored_properties(scene)["firetwin"]["run"] = run
+
+
+def shot_source(panel: bpy.types.PropertyGroup) -> ShotSource:
+    """Return the shot source of the panel and the preferences, with manual edits of cameras."""
+    camera_edits.read_camera_edits(panel.id_data)
+    return ShotSource(str(write_temporary(panel.id_data)), device=preferences.device())
 
 
 def output_folder(panel: bpy.types.PropertyGroup, *inside: str) -> str:

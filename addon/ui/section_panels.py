@@ -8,7 +8,7 @@ import bpy
 
 from ..scene.build import PARTS
 from ..shot.schema import Field, fields
-from . import build, job, keys, panel_order, rows, sections
+from . import build, job, keys, rows, sections, sidebar
 from .sidebar import SidebarPanel
 
 _OWN = ("time",)  # drawn by a separate panel
@@ -41,7 +41,7 @@ def _create_panel(section: Field, place: int) -> type[bpy.types.Panel]:
     own: dict[str, Any] = {
         "__doc__": keys.sentence(section.key.help),
         "bl_idname": f"FIRETWIN_PT_section_{name}",
-        "bl_label": "Render Settings" if name in _BELOW else panel_order.title(name),
+        "bl_label": "Render Settings" if name in _BELOW else keys.section_title(name),
         "bl_options": {"DEFAULT_CLOSED"},
         "bl_order": place,
         "draw": drawn,
@@ -58,9 +58,9 @@ def _create_panels() -> tuple[type[bpy.types.Panel], ...]:
     late = (*_LATE, *_BELOW)
     early = [part for part in shown if part.name not in late]
     return (
-        *(_create_panel(part, panel_order.SECTIONS + place) for place, part in enumerate(early)),
+        *(_create_panel(part, sidebar.SECTIONS + place) for place, part in enumerate(early)),
         *(
-            _create_panel(part, panel_order.SENSORS + place)
+            _create_panel(part, sidebar.SENSORS + place)
             for place, part in enumerate(p for p in shown if p not in early)
         ),
     )

@@ -9,6 +9,9 @@ from . import manual
 if TYPE_CHECKING:
     import bpy
 
+SECTIONS, CAMERAS, SENSORS, RENDER, REPORT = 3, 30, 31, 40, 50
+"""Order of the panels after Run, Scene and Time."""
+
 
 class SidebarPanel:
     """A panel of the tab Firetwin."""

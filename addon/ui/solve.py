@@ -8,7 +8,7 @@ import bpy
 
 from ..blender import owned
 from ..shot.source import ShotSource
-from . import choice
+from . import scene_file
 from .job import InThread, Steps
 
 OPERATOR = "firetwin.solve"
@@ -28,7 +28,7 @@ def estimate_cost(uid: int) -> Steps:
     better = replaced_method(panel)
     if not panel.smoke.enabled or not better:
         return ""
-    chosen = replace(choice.from_panel(panel), smoke=better)
+    chosen = replace(scene_file.shot_source(panel), smoke=better)
     cost = yield InThread("estimating the cost of the smoke", lambda **_: _cost_text(chosen))
     owned.scene(uid).firetwin.smoke_cost = cost
     return cost

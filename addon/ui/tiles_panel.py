@@ -12,7 +12,7 @@ from ..jobs.worker import Stop
 from ..progress import MessageCallback, Progress
 from ..shot.source import ShotSource
 from ..shot.tiles.tile_cut import TileCut
-from . import choice, job, run, target_scene, tile_facts, view, working
+from . import job, run, scene_file, target_scene, tile_facts, view, working
 from .job import InThread, Steps
 from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
@@ -69,7 +69,7 @@ def steps(context: bpy.types.Context, only_boxes: bool) -> Steps:
     from ..jobs.tiles import bounding_boxes
     from ..scene.tiles import preview
 
-    uid, chosen = context.scene.session_uid, choice.from_panel(context.scene.firetwin)
+    uid, chosen = context.scene.session_uid, scene_file.shot_source(context.scene.firetwin)
     boxes = yield InThread("reading the tilesets", functools.partial(bounding_boxes.run, chosen))
     yield "drawing the boxes"
     new = not owned.has_data(owned.scene(uid))

@@ -19,7 +19,7 @@ from ...run import times
 from ...scene.stations import control_line
 from ...shot.shot import Shot
 from ...shot.source import ShotSource
-from ...ui import choice, job, run, working
+from ...ui import job, run, scene_file, working
 from ...ui.job import InThread, Message, Steps
 from ...ui.menu_entries import Entry
 from ...ui.sidebar import SidebarPanel
@@ -115,7 +115,7 @@ class FIRETWIN_OT_allocate(Working, bpy.types.Operator):
         asked = {"hours": panel.allocation_hours or None, "count": panel.allocation_divisions}
         work = functools.partial(
             _suggest,
-            choice.from_panel(panel),
+            scene_file.shot_source(panel),
             Path(bpy.path.abspath(panel.stations.file)),
             scene.frame_current if panel.allocation_from == _FRAME else None,
             asked,

@@ -17,7 +17,6 @@ from firetwin.shot.stations import station_signs
 from firetwin.ui import (
     camera_list,
     camera_targets,
-    choice,
     coordinates,
     events,
     go_to,
@@ -25,6 +24,7 @@ from firetwin.ui import (
     landmarks,
     navigation,
     place_names,
+    scene_file,
 )
 from mathutils import Euler, Matrix, Vector
 
@@ -234,7 +234,7 @@ def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):
     assert (
         go_to.find_position(scene, "base two") - go_to.find_position(scene, "38.84 -120.55")
     ).length < 0.01
-    shot = choice.from_panel(panel).shot()
+    shot = scene_file.shot_source(panel).shot()
     latitude, longitude = station_signs.ignition_point(shot)
     assert (
         go_to.find_position(scene, "ignition") - go_to.find_position(scene, f"{latitude} {longitude}")

@@ -24,7 +24,6 @@ from firetwin.ui import auto_framing as framing
 from firetwin.ui import (
     build,
     camera_list,
-    choice,
     job,
     keys,
     maps,
@@ -131,7 +130,7 @@ def test_a_scene_file_fills_the_panel(settings, scene_file, run_folder):
     assert settings.cameras.keys() == ["drone"]
     assert settings.render.resolution[:] == (64, 36)
     assert not settings.problem
-    assert choice.from_panel(settings).settings().cameras == file.read(scene_file).cameras
+    assert scene_settings.shot_source(settings).settings().cameras == file.read(scene_file).cameras
     settings.run = "elsewhere"
     assert settings.problem
     assert settings.cameras.keys() == ["drone"]
@@ -199,7 +198,7 @@ def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monk
     settings.run = str(run_folder)
     assert settings.smoke.method == "puffs"
     assert "about " in settings.smoke_cost
-    asked = sources.select(replace(choice.from_panel(settings), smoke="flow").shot()).cost()
+    asked = sources.select(replace(scene_settings.shot_source(settings), smoke="flow").shot()).cost()
     assert settings.smoke_cost == asked.brief()
     layout = MagicMock()
     solve.draw(layout, settings)
@@ -241,9 +240,9 @@ def test_the_panel_says_what_smoke_is_made_of(settings, scene_file, run_folder):
     settings.run = str(run_folder)
     assert settings.smoke.method == "puffs"
     settings.smoke.method = "flow"
-    assert choice.from_panel(settings).shot().settings.smoke.method == "flow"
+    assert scene_settings.shot_source(settings).shot().settings.smoke.method == "flow"
     settings.scene_file = str(scene_file)
-    assert choice.from_panel(settings).shot().settings.smoke.method == "flow"
+    assert scene_settings.shot_source(settings).shot().settings.smoke.method == "flow"
 
 
 def test_the_preferences_say_what_renders_on(settings, monkeypatch):
@@ -254,9 +253,9 @@ def test_the_preferences_say_what_renders_on(settings, monkeypatch):
     known = SimpleNamespace(preferences=SimpleNamespace(addons={"firetwin": chosen}))
     settings.run = "somewhere"
     monkeypatch.setattr(preferences, "bpy", SimpleNamespace(context=known))
-    assert choice.from_panel(settings).device == "gpu"
+    assert scene_settings.shot_source(settings).device == "gpu"
     chosen.preferences.device = "scene"
-    assert choice.from_panel(settings).device == ""
+    assert scene_settings.shot_source(settings).device == ""
 
 
 def test_the_preferences_say_where_smoke_is_cached_and_how_much(settings, tmp_path, monkeypatch):
