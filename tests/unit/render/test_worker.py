@@ -2,7 +2,6 @@
 
 import errno
 import tempfile
-from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
@@ -10,7 +9,7 @@ import child_work
 import numpy as np
 import pytest
 from firetwin.errors import FullDiskError, InputError
-from firetwin.export.tracks import Track
+from firetwin.geometry.camera_track import CameraTrack
 from firetwin.jobs import worker
 
 
@@ -18,18 +17,20 @@ def test_dataclasses_and_arrays_cross_both_ways_beside_output_of_libraries(monke
     """Arrays larger than a pipe's buffer, with bytes of ends of lines."""
     child_work.importable(monkeypatch)
     many = 300_000
-    sent = Track(
+    sent = CameraTrack(
         "drone\r\n\x1a",
         np.arange(many),
-        (datetime(2014, 9, 17, tzinfo=UTC),),
-        *(np.full((many, 3), 1.5, np.float64) for _ in range(4)),
+        np.full((many, 3), 1.5),
+        np.full((many, 3, 3), 0.5),
+        np.full((many, 2), 0.25),
         36.0,
         "perspective",
+        np.full((many, 2), 13.0),
     )
     back = worker.run(partial(child_work.send_back, sent), blender=False)
-    assert (type(back), back.name, back.times) == (Track, sent.name, sent.times)
+    assert (type(back), back.name) == (CameraTrack, sent.name)
     np.testing.assert_array_equal(back.frames, sent.frames)
-    np.testing.assert_array_equal(back.geodetic, sent.geodetic)
+    np.testing.assert_array_equal(back.rotation, sent.rotation)
 
 
 @pytest.mark.parametrize(("code", "kind"), [(errno.ENOSPC, FullDiskError), (errno.EROFS, InputError)])
