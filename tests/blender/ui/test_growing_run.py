@@ -31,8 +31,7 @@ class Layout:
 @pytest.fixture
 def model(tmp_path, monkeypatch):
     """A model with two complete times, and its watch."""
-    call = lambda _, task, **__: watch.in_process(**task)  # noqa: E731
-    monkeypatch.setattr(watch.worker, "run", call)
+    monkeypatch.setattr(watch.worker, "run", lambda work, **_: work())
     writer = growing_model.Writer(tmp_path / "fire.nc", "netcdf3")
     look = watch._Watch(watch.WatchRequest(tmp_path / "fire.nc", tmp_path / "DIR", idle=1e-6), lambda _: None)
     for _ in range(3):
