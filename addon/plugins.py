@@ -41,8 +41,17 @@ def parts(package: str, name: str) -> dict[str, ModuleType]:
 
 
 def of_rooms(name: str) -> tuple[ModuleType, ...]:
-    """Import the module or package `name` of each room that has it, such as ``panel``, in order of rooms."""
-    return tuple(parts(str(__package__), name).values())
+    """Import the module or package `name` of each feature that has it, such as ``panel``.
+
+    A feature is a folder with ``command.py``.
+    """
+    package, rooms = str(__package__), sorted(Path(__file__).parent.glob("*/command.py"))
+    having = (
+        each.parent
+        for each in rooms
+        if any(map(Path.exists, (each.with_name(name), each.with_name(f"{name}.py"))))
+    )
+    return tuple(module(f"{package}.{each.name}", name) for each in having)
 
 
 def declared(folders: Path | Sequence[Path], constant: str) -> dict[str, Any]:

@@ -5,12 +5,17 @@ from __future__ import annotations
 import argparse
 import math
 import textwrap
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 from .. import argument_types as types
 from .. import limits
-from ..command import SCENES, Command
+from ..command import SCENES, Command, amend
 from ..stations.records import EXERCISE
 from . import INDIRECT, LIMITS, RADIUS
+
+if TYPE_CHECKING:
+    from firetwin_core.run import Run
 
 _LIMITS = textwrap.fill(f"Limits: {'; '.join(LIMITS)}.", 110)
 
@@ -95,10 +100,6 @@ def _add(parser: argparse.ArgumentParser) -> None:
         help=f"distance of the line from the fire's edge, m ({INDIRECT:g})",
     )
     parser.add_argument(
-        "--ensemble", metavar="DIR", type=types.path,
-        help="forecast of many members: times by which 10 and 50 %% of them reach each control line (none)",
-    )  # fmt: skip
-    parser.add_argument(
         "--geojson", metavar="FILE", type=types.path, help="also write lines and resources for maps"
     )
     parser.add_argument("--json", action="store_true", help="write JSON")
@@ -128,6 +129,16 @@ def _amount(text: str) -> float:
     return value
 
 
+@dataclass(frozen=True)
+class Suggested:
+    """A suggestion (see `suggestion.describe`) for a run, its map layer, and further lines by division."""
+
+    run: Run
+    suggestion: dict[str, Any]
+    drawn: dict[str, Any]
+    lines: dict[str, list[str]] = field(default_factory=dict)
+
+
 def _run(arguments: argparse.Namespace) -> None:
     """Print the suggested allocation.
 
@@ -142,8 +153,7 @@ def _run(arguments: argparse.Namespace) -> None:
     from ..errors import Error
     from ..progress import result
     from ..run import readers, times
-    from ..run.ensemble import place_arrivals
-    from . import job, members, page, read
+    from . import job, page, read
     from .control_line import LineOptions
     from .problem import Request
 
@@ -160,12 +170,11 @@ def _run(arguments: argparse.Namespace) -> None:
     line = LineOptions(0.5 * arguments.close_gaps, arguments.indirect)
     suggestion = job.suggest(units, run, request, start, arguments.hours, arguments.divisions, line=line)
     drawn = suggestion.pop("map")
-    if arguments.ensemble is not None:
-        members.add(suggestion, run, place_arrivals.open_forecast(arguments.ensemble, "the list"), drawn)
+    lines = amend(arguments, Suggested(run, suggestion, drawn)).lines
     suggestion["left_out"] += left_out
     if arguments.geojson is not None:
         files.write_text(arguments.geojson, json.dumps(drawn, separators=(",", ":")) + "\n")
-    result(json.dumps(suggestion, indent=1) if arguments.json else page.format_text(suggestion))
+    result(json.dumps(suggestion, indent=1) if arguments.json else page.format_text(suggestion, lines))
     if suggestion["reasons"]:
         raise Error("; ".join(suggestion["reasons"]))
 

@@ -8,12 +8,12 @@ from typing import Any
 _LENGTHS = ("perimeter", "detailed_perimeter")
 
 
-def format_text(found: dict[str, Any]) -> str:
-    """Format divisions, sums, assumptions and limits, with the exercise label first and last."""
-    return "\n".join(_lines(found))
+def format_text(found: dict[str, Any], lines: dict[str, list[str]]) -> str:
+    """Format divisions, with further lines by name, sums, assumptions and limits between two labels."""
+    return "\n".join(_lines(found, lines))
 
 
-def _lines(result: dict[str, Any]) -> Iterator[str]:
+def _lines(result: dict[str, Any], more: dict[str, list[str]]) -> Iterator[str]:
     label, cost = f"*** {result['label']} ***", result["units"]["cost"]
     money = f" {cost}" if cost else ""
     yield label
@@ -25,7 +25,7 @@ def _lines(result: dict[str, Any]) -> Iterator[str]:
         yield f"no allocation: {reason}"
     for division in result["divisions"]:
         yield ""
-        yield from _division(division, result, money)
+        yield from _division(division, result, money, more.get(division["name"], []))
     if result["sums"]:
         sums = result["sums"]
         yield ""
@@ -43,7 +43,9 @@ def _lines(result: dict[str, Any]) -> Iterator[str]:
     yield label
 
 
-def _division(division: dict[str, Any], result: dict[str, Any], money: str) -> Iterator[str]:
+def _division(
+    division: dict[str, Any], result: dict[str, Any], money: str, lines: list[str]
+) -> Iterator[str]:
     low, high = division["bearings"]
     front = division["perimeter"]
     head = f"division {division['name']}, {low:g} to {high:g} degrees from north"
@@ -60,12 +62,7 @@ def _division(division: dict[str, Any], result: dict[str, Any], money: str) -> I
         there = front[result["hours"].index(hour)]
         yield f"{head}: contained at hour {hour:g}, line {division['line']:,.0f} m of {there:,.0f} m"
     yield from (_resource(each, money) for each in division["resources"])
-    if forecast := division.get("forecast"):
-        yield f"  members of the forecast at this line: {forecast['text']}"
-        yield (
-            f"  {forecast['reached_by_hour']} of {forecast['members']} members reach it by hour "
-            f"{forecast['hour']:g}"
-        )
+    yield from (f"  {line}" for line in lines)
     if plan := division.get("nearest_plan"):
         yield from _plan(plan, money)
 

@@ -16,6 +16,7 @@ from ..errors import UsageError
 from ..run import areas, content, fronts, info, labels, observations, readers, score, times, zone
 from ..run.fronts import Front
 from ..run.labels import Label
+from ..run.measure import Units
 from ..run.observations import Perimeter
 from ..shot.settings import Settings
 from ..shot.source import ShotSource
@@ -23,14 +24,13 @@ from ..shot.terrain.elevation import Elevation
 from ..stations import reading
 from ..stations.records import Resource, Station
 from ..stations.station_file import StationFile
-from . import context, film, forecast, inputs, layers, reached
+from . import context, film, inputs, layers, reached
 from .command import LIMIT
 from .context import Context
 from .film import Film
-from .forecast import Forecast
 from .layers import Layer
 from .reached import Reached
-from .sheet_options import SheetOptions, Units
+from .sheet_options import SheetOptions
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,6 @@ class Request:
         Names and files of map features (see `context`).
     sheet
         Choices for the printed sheets.
-    ensemble
-        Folder of an ensemble; None to omit it.
     """
 
     scene: Path
@@ -62,7 +60,6 @@ class Request:
     limit: int = LIMIT
     context: Sequence[tuple[str, Path]] = ()
     sheet: SheetOptions = field(default_factory=SheetOptions)
-    ensemble: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -116,8 +113,8 @@ class Briefing:
         Map features of the user, in the order of drawing.
     sheet
         Choices for the printed sheets.
-    forecast
-        Statistics of an ensemble; None without one.
+    sections, sentences
+        Further sections of the page, and sentences on methods.
     """
 
     run: Run
@@ -137,7 +134,8 @@ class Briefing:
     inputs: list[tuple[str, str]]
     context: list[Context]
     sheet: SheetOptions
-    forecast: Forecast | None = None
+    sections: tuple[str, ...] = ()
+    sentences: tuple[str, ...] = ()
 
     @cached_property
     def moments(self) -> list[str]:
@@ -210,7 +208,6 @@ def gather(request: Request) -> Briefing:
     files = sorted({observations.dates.without(each)[0].name for each in named})
     lines, tolerance = fronts.find(run, clock)
     around = context.read(request.context)
-    points = _points(run, settings, station_file, clock, _arrival_error(scores), request.sheet.units)
     return Briefing(
         run=run,
         zone=clock,
@@ -219,7 +216,7 @@ def gather(request: Request) -> Briefing:
         layers=layers.draw(run, elevation.fuel, clock, request.sheet.units),
         fronts=lines,
         tolerance=tolerance,
-        points=points,
+        points=_points(run, settings, station_file, clock, _arrival_error(scores), request.sheet.units),
         station_file=station_file,
         film=shown,
         observed=[p for p in seen.perimeters if run.times[0] <= times.seconds(run, p.time) <= run.times[-1]],
@@ -233,14 +230,7 @@ def gather(request: Request) -> Briefing:
         ],
         context=around,
         sheet=request.sheet,
-        forecast=_forecast(request.ensemble, points),
     )
-
-
-def _forecast(folder: Path | None, points: Sequence[Point]) -> Forecast | None:
-    if folder is None:
-        return None
-    return forecast.gather(folder, [each.latitude for each in points], [each.longitude for each in points])
 
 
 def _hashes(run: Run) -> dict[str, str]:

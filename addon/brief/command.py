@@ -6,7 +6,7 @@ import argparse
 import re
 
 from .. import argument_types as types
-from ..command import RUNS, Command
+from ..command import RUNS, Command, amend
 
 LIMIT = 32_000_000  # bytes
 PAPERS = ("a4", "a3", "letter", "tabloid")
@@ -37,12 +37,6 @@ def _add(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         default=[],
         help="observed perimeters and detections (RUN/observations)",
-    )
-    parser.add_argument(
-        "--ensemble",
-        metavar="DIR",
-        type=types.path,
-        help="ensemble of the forecast (none)",
     )
     parser.add_argument(
         "--limit",
@@ -142,10 +136,9 @@ def _run(arguments: argparse.Namespace) -> None:
         arguments.limit,
         [context.parse(each) for each in arguments.context],
         sheet_options.of_arguments(arguments),
-        arguments.ensemble,
     )
     with notify_if_slow(READING):
-        gathered = briefing.gather(request)
+        gathered = amend(arguments, briefing.gather(request))
     for note in page.notes(gathered):
         say(note)
     made = page.html(gathered, arguments.limit)

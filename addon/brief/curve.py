@@ -2,45 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from datetime import datetime, timedelta
+from collections.abc import Sequence
+from datetime import datetime
 from typing import Any
-from zoneinfo import ZoneInfo
-
-import numpy as np
 
 from ..html_text import quote
 from ..run import times
+from ..run.area_chart import BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH, Axes, dates, scale
 from ..run.fronts import Front
-from ..run.score.measure import Measure
-from . import units as page_units
-from .sheet_options import Units
-
-WIDTH, HEIGHT = 900, 300  # of the drawing, which the page scales
-LEFT, RIGHT, TOP, BOTTOM = 66, 58, 20, 52
-_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
-_HOURS = (1, 2, 3, 6, 12, 24, 48, 96, 240)
-_MOST_DATES = 7
-
-
-@dataclass(frozen=True)
-class Axes:
-    """Coordinates in the drawing for times (UTC) and areas (m2)."""
-
-    first: datetime
-    last: datetime
-    high: float
-
-    def x(self, when: datetime) -> float:
-        """Return the horizontal coordinate of a time."""
-        span = max((self.last - self.first).total_seconds(), 1.0)
-        share = (when - self.first).total_seconds() / span
-        return round(LEFT + share * (WIDTH - LEFT - RIGHT), 1)
-
-    def y(self, area: float) -> float:
-        """Return the vertical coordinate of an area."""
-        return round(HEIGHT - BOTTOM - area / self.high * (HEIGHT - TOP - BOTTOM), 1)
+from ..run.measure import AREA, Measure, Units
 
 
 def axes(fronts: Sequence[Front], reported: Sequence[dict[str, Any]]) -> Axes:
@@ -52,7 +22,7 @@ def axes(fronts: Sequence[Front], reported: Sequence[dict[str, Any]]) -> Axes:
 def svg(fronts: Sequence[Front], reported: Sequence[dict[str, Any]], zone: str, units: Units = "us") -> str:
     """Draw the curve of the run and dots for reports; the axis of `units` is at the left, the other right."""
     second: Units = "metric" if units == "us" else "us"
-    left, right = page_units.AREA[units], page_units.AREA[second]
+    left, right = AREA[units], AREA[second]
     place = axes(fronts, reported)
     line = " ".join(f"{place.x(front.utc)},{place.y(front.area)}" for front in fronts)
     foot = HEIGHT - BOTTOM
@@ -84,35 +54,3 @@ def _dot(place: Axes, row: dict[str, Any], zone: str, unit: Measure) -> str:
     title = quote(f"{times.text(when, zone)}: {area} ({row['source']})")
     spot = f'cx="{place.x(when)}" cy="{place.y(row["reported"])}"'
     return f'<circle class="reported" r="5" {spot}><title>{title}</title></circle>'
-
-
-def scale(place: Axes, unit: Measure, x: float, anchor: str, lines: bool) -> Iterator[str]:
-    """Draw the ticks of an area axis."""
-    high = place.high * unit.factor
-    power = 10.0 ** np.floor(np.log10(high / 4.0))
-    step = next(step * power for step in _STEPS if step * power >= high / 4.0 * 0.999)
-    for value in np.arange(0.0, high, step):
-        y = place.y(float(value) / unit.factor)
-        if lines:
-            yield f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y}" y2="{y}"/>'
-        yield f'<text x="{x}" y="{y + 4}" text-anchor="{anchor}" class="{anchor}">{value:,g}</text>'
-    yield f'<text x="{x}" y="{TOP - 6}" text-anchor="{anchor}" class="unit {anchor}">{unit.name}</text>'
-
-
-def dates(place: Axes, zone: str) -> Iterator[str]:
-    """Draw ticks at round local hours below the curve."""
-    hours = (place.last - place.first).total_seconds() / 3600.0
-    if hours < 2.0:
-        ticks = [place.first, place.last]
-    else:
-        step = next((step for step in _HOURS if hours / step <= _MOST_DATES), int(hours / _MOST_DATES) + 1)
-        start = place.first.astimezone(ZoneInfo(zone)).replace(hour=0, minute=0, second=0, microsecond=0)
-        count = int((hours + 24.0) / step) + 2
-        every = [start + timedelta(hours=step * k) for k in range(count)]
-        ticks = [tick for tick in every if place.first <= tick <= place.last]
-    for tick in ticks:
-        local, x = tick.astimezone(ZoneInfo(zone)), place.x(tick)
-        foot = HEIGHT - BOTTOM
-        yield f'<line class="tick" x1="{x}" x2="{x}" y1="{foot}" y2="{foot + 5}"/>'
-        yield f'<text x="{x}" y="{foot + 20}" text-anchor="middle">{local:%H:%M}</text>'
-        yield f'<text x="{x}" y="{foot + 42}" text-anchor="middle" class="day">{local.day} {local:%b}</text>'

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..html_text import quote
+from ..run.measure import Units
 from ..stations.records import EXERCISE
 from . import context, units
 from .briefing import Briefing
-from .sheet_options import Units
 
 _HEAD = ("Number", "Resource", "Type", "Station", "Arrives after", "Line", "Leader, contact")
 

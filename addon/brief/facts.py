@@ -7,10 +7,10 @@ from datetime import datetime
 from zoneinfo import ZoneInfo
 
 from ..run import times
+from ..run.measure import Units
 from ..stations.records import Availability, Resource, Type
 from ..stations.station_file import StationFile
 from . import units
-from .sheet_options import Units
 
 _OF_TYPE = {
     "tank_l": ("tank", "l"),

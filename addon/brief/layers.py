@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from ..run import areas, thumbnails, times
+from ..run.measure import Units
 from . import mercator, units
 from .mercator import Box
-from .sheet_options import Units
 
 LONGEST = 1100  # maximum length of the longer side, pixels
 _LEAST = 600  # pixels, for smooth hill shading of coarse grids

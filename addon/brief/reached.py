@@ -11,10 +11,10 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike
 
+from ..run.measure import Units
 from ..stations import arrival_text, fire_arrival
 from ..stations.arrival_text import ArrivalText
 from . import units
-from .sheet_options import Units
 
 State = Literal["reached", "before", "not_reached", "outside"]
 _STATES: dict[int, State] = {

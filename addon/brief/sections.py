@@ -164,7 +164,7 @@ def method(briefing: Briefing) -> str:
     inputs = methods.Inputs(
         elevation=found.get("Elevation model", ""),
         observations=[name for what, name in briefing.inputs if what == "Observations" and briefing.scores],
-        forecast=briefing.forecast.ensemble.manifest if briefing.forecast else None,
+        sentences=briefing.sentences,
         rendered=briefing.film.versions if briefing.film else (),
         exercise=briefing.exercise,
     )

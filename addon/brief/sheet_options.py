@@ -12,10 +12,10 @@ import firetwin_core
 from firetwin_core.run import Run
 
 from ..run import times
+from ..run.measure import Units
 from .paper import Orientation
 
 Grid = Literal["latlong", "usng", "none"]
-Units = Literal["us", "metric"]
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ class Titles:
             f"{times.text(begins, zone)} to {times.text(ends, zone)}",
             _text(prepared, zone, (begins, ends)),
             _text(issued, zone, (begins, ends)) + ("" if options.issued else " (start of the run)"),
-            age((prepared - issued).total_seconds()),
+            times.age((prepared - issued).total_seconds()),
         )
 
 
@@ -93,9 +93,3 @@ def _text(when: datetime, zone: str, period: tuple[datetime, datetime]) -> str:
     local = ZoneInfo(zone)
     changed = all(each.astimezone(local).utcoffset() != when.astimezone(local).utcoffset() for each in period)
     return times.text(when, "UTC" if changed else zone)
-
-
-def age(seconds: float) -> str:
-    """Format the age of a forecast: ``5.5 h``, ``12 days``."""
-    hours = seconds / 3600.0
-    return f"{hours:.1f} h" if abs(hours) < 72.0 else f"{hours / 24.0:,.0f} days"

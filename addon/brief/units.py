@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from ..data.history import SQUARE_METRES_PER_ACRE
-from ..run.score.measure import ACRES, METRES, Measure
+from ..run.measure import AREA, METRES, Measure, Units, area, ordered
 from ..stations.arrival_text import format_distance
-from .sheet_options import Units
+
+__all__ = ["AREA", "FUEL", "MILE", "SEPARATION", "area", "distance", "length", "number", "quantity"]
 
 MILE = 1609.344
 """International mile, m."""
@@ -23,7 +24,6 @@ _US = {
 """US unit and its number for one metric unit."""
 _TON = 2000.0 * _POUND  # short ton, kg
 
-AREA: dict[Units, Measure] = {"us": ACRES, "metric": Measure("ha", 1e-4)}
 SEPARATION: dict[Units, Measure] = {"us": Measure("mi", 1.0 / MILE, 2), "metric": METRES}
 FUEL: dict[Units, Measure] = {
     "us": Measure("tons/acre", SQUARE_METRES_PER_ACRE / _TON),
@@ -32,23 +32,17 @@ FUEL: dict[Units, Measure] = {
 """Units of tables and legends with one unit: burned area, distance of perimeters, fuel load."""
 
 
-def area(square_metres: float, units: Units) -> str:
-    """Format an area in acres and hectares."""
-    us, metric = (f"{each.format(square_metres)} {each.name}" for each in (AREA["us"], AREA["metric"]))
-    return _ordered(us, metric, units)
-
-
 def distance(metres: float, units: Units) -> str:
     """Format a distance in miles and metric units, with two digits, rounded up: ``0.09 mi (140 m)``."""
     miles = max(metres / MILE, 0.01)
     digits = max(0, min(2, 1 - math.floor(math.log10(max(miles, 0.1)))))
     up = math.ceil(round(miles * 10.0**digits, 6)) / 10.0**digits
-    return _ordered(f"{up:,.{digits}f} mi", format_distance(metres), units)
+    return ordered(f"{up:,.{digits}f} mi", format_distance(metres), units)
 
 
 def length(metres: float, units: Units) -> str:
     """Format the length of a line of work in chains and metres."""
-    return _ordered(f"{metres / _CHAIN:,.0f} chains", f"{metres:,.0f} m", units)
+    return ordered(f"{metres / _CHAIN:,.0f} chains", f"{metres:,.0f} m", units)
 
 
 def quantity(value: float, unit: str, units: Units) -> str:
@@ -57,13 +51,9 @@ def quantity(value: float, unit: str, units: Units) -> str:
     if unit not in _US:
         return metric
     name, factor = _US[unit]
-    return _ordered(f"{number(value * factor)} {name}", metric, units)
+    return ordered(f"{number(value * factor)} {name}", metric, units)
 
 
 def number(value: float) -> str:
     """Format a number with three digits or all digits before the point."""
     return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.3g}"
-
-
-def _ordered(us: str, metric: str, units: Units) -> str:
-    return f"{us} ({metric})" if units == "us" else f"{metric} ({us})"

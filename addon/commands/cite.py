@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -42,14 +40,11 @@ def _run(arguments: argparse.Namespace) -> None:
     """List the sources that a work with a run, an ensemble or a film has to cite."""
     from ..errors import UsageError
     from ..run import citations, readers
-    from ..run.ensemble import ensemble
     from ..shot.source import ShotSource
 
     if arguments.licence and not arguments.crate:
         raise UsageError("--license: is of --crate; name the folder of the film")
-    if ensemble.sniff(arguments.run):
-        rows = citations.of_ensemble(ensemble.open(arguments.run))
-    elif is_scene(arguments.run):
+    if is_scene(arguments.run):
         shot = ShotSource(scene=str(arguments.run)).shot()
         rows = _sources(shot)
         if arguments.crate:
@@ -59,21 +54,16 @@ def _run(arguments: argparse.Namespace) -> None:
         rows = citations.of_run(readers.open(arguments.run))
     if arguments.crate:
         raise UsageError(f"--crate: {arguments.run} is not a scene file; name the scene file of the film")
-    if arguments.json:
-        json.dump(rows, sys.stdout, indent=1)
-        print()
-    else:
-        result(citations.page(rows))
+    citations.show(rows, arguments.json)
 
 
 def _sources(shot: Shot) -> list[dict[str, str]]:
     """List the sources of a film, each once: of its runs, its forecast, and its pictures."""
     from ..run import citations
-    from ..shot import forecast, picture_credits
+    from ..shot import picture_credits, scene_inputs
 
     rows = [row for run in list_runs(shot).values() for row in citations.of_run(run)]
-    if shot.settings.forecast.ensemble:
-        rows += citations.of_ensemble(forecast.of(shot.settings))
+    rows += scene_inputs.sources(shot.settings)
     credits = picture_credits.of_shot(shot)
     rows += [{"kind": "pictures", "text": text} for text in (*credits.data, *credits.logo)]
     return list({row["text"]: row for row in rows}.values())
@@ -83,9 +73,9 @@ def _write_crate(shot: Shot, rows: list[dict[str, str]], out: Path, licence: str
     """Describe the files of a film for archives."""
     from ..render import crate, manifest
     from ..run import content, methods
-    from ..shot import forecast
+    from ..shot import scene_inputs
 
-    terrain, ensemble = shot.settings.terrain, shot.settings.forecast.ensemble
+    terrain = shot.settings.terrain
     report = Reporter("input hashes")
     runs = {
         label: (run.name, content.inputs(run, shot.settings.cache, (), report))
@@ -93,7 +83,7 @@ def _write_crate(shot: Shot, rows: list[dict[str, str]], out: Path, licence: str
     }
     inputs = methods.Inputs(
         elevation=terrain.elevation.name if terrain.elevation else "",
-        forecast=forecast.of(shot.settings).manifest if ensemble else None,
+        sentences=scene_inputs.sentences(shot.settings),
         rendered=manifest.versions(manifest.read(out)["settings"].values()),
     )
     return crate.write(out, runs, methods.paragraph(shot.run, inputs), rows, licence)

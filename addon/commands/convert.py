@@ -39,11 +39,6 @@ def _add(parser: argparse.ArgumentParser) -> None:
         help="time step of the fields if the model writes arrival times (fitted)",
     )
     parser.add_argument(
-        "--members",
-        action="store_true",
-        help="convert all members of a forecast to an ensemble (a model's output, a folder or list of runs)",
-    )
-    parser.add_argument(
         "--member", metavar="NAME", default="", help="convert a member of the ensemble IN to a run"
     )
     parser.add_argument(
@@ -54,30 +49,12 @@ def _add(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="forecast of HRRR for the wind at 10 m, if the model writes none: a file per hour",
     )
-    parser.add_argument(
-        "--horizon",
-        metavar="HOURS",
-        type=types.hours,
-        default=0,
-        help="length of the forecast of --members (of its longest member)",
-    )
 
 
 def _run(arguments: argparse.Namespace) -> None:
     """Convert a fire model's own files to a run."""
-    from ..errors import UsageError
     from ..jobs import convert
 
-    if arguments.members and arguments.wind:
-        raise UsageError("--wind: members have arrival times alone; give it with --member")
-    if arguments.members:
-        options = arguments.start, arguments.at, arguments.projection, arguments.horizon * 3600.0
-        result(
-            convert.run_members(
-                arguments.paths, arguments.out, *options, tell=say, name=arguments.name, zone=arguments.zone
-            )
-        )
-        return
     reporter = Reporter("times")
     try:
         result(

@@ -27,13 +27,9 @@ def _add(parser: argparse.ArgumentParser) -> None:
 def _run(arguments: argparse.Namespace) -> None:
     """Show the contents of a run, or of all runs of a scene file."""
     from ..run import info, readers, zone
-    from ..run.ensemble import ensemble, summary
     from ..shot.source import ShotSource
 
-    if ensemble.sniff(arguments.run):
-        facts = summary.gather(ensemble.open(arguments.run))
-        page = summary.page(facts)
-    elif is_scene(arguments.run):
+    if is_scene(arguments.run):
         shot = ShotSource(scene=str(arguments.run)).shot()
         runs = list_runs(shot)
         say(shot.describe_film())

@@ -30,26 +30,14 @@ def _add(parser: argparse.ArgumentParser) -> None:
         help="factor of the rate of spread, for a what-if run (1)",
     )
     parser.add_argument(
-        "--members", metavar="N", type=types.count, help="write a synthetic ensemble of N members instead"
-    )
-    parser.add_argument(
-        "--member", metavar="I", type=types.count, default=0, help="write the run of member I of it (0)"
+        "--member", metavar="I", type=types.count, default=0, help="write the run of member I (0)"
     )
 
 
 def _run(arguments: argparse.Namespace) -> None:
     """Write the sample run."""
     from ..data import sample
-    from ..errors import UsageError
 
-    if arguments.members is not None:
-        from ..run.ensemble import synthetic
-
-        if arguments.member or arguments.pace != 1.0 or arguments.frames is not None:
-            raise UsageError("--members: has arrival times alone; leave out --member, --pace and --frames")
-        synthetic.write(arguments.out, arguments.members, Reporter("members"))
-        result(arguments.out)
-        return
     say(f"writing the synthetic King-like run to {arguments.out}")
     report = Reporter("model times")
     options = arguments.frames, arguments.format, report, arguments.pace, arguments.member

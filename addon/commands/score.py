@@ -19,7 +19,7 @@ perimeters, with and without the area burned before the start of the run. Furthe
 times, and detections with their lag. Each score is computed on polygons and on cells; their difference
 estimates the numerical error of the score, not of the fire model. Observations outside the times or the grid
 of the run are counted and ignored. The exit status is 1 if none remains. Needs shapely and pyproj (pip
-install 'firetwin[score]'). For an ensemble: CRPS, Brier score, reliability and FSS."""
+install 'firetwin[score]')."""
 
 
 def _add(parser: argparse.ArgumentParser) -> None:
@@ -52,12 +52,8 @@ def _run(arguments: argparse.Namespace) -> None:
     from ..errors import Error, UsageError, input_error
     from ..run import observations, readers, zone
     from ..run import score as scores
-    from ..run.ensemble import ensemble
     from ..run.score import page, used
 
-    if ensemble.sniff(arguments.run):
-        _score_members(arguments)
-        return
     if is_scene(arguments.run):
         run, *others = open_runs(arguments.run).values()
         named = arguments.against or [other.path for other in others]
@@ -82,24 +78,6 @@ def _run(arguments: argparse.Namespace) -> None:
         say(f"wrote {arguments.report}")
     if not runs and (none := used.nothing(found["uses"])):
         raise Error(none)
-
-
-def _score_members(arguments: argparse.Namespace) -> None:
-    """Compare an ensemble with observed perimeters."""
-    from ..errors import UsageError
-    from ..run import observations, zone
-    from ..run.ensemble import ensemble
-    from ..run.score import members
-
-    found = ensemble.open(arguments.run)
-    named = arguments.against or observations.beside(arguments.run)
-    if arguments.report:
-        raise UsageError("--report: is of runs alone; use --json for the scores of an ensemble")
-    if not named or not all(observations.is_one(each) for each in named):
-        raise UsageError("--against: name files of observed perimeters")
-    place = float(found.longitude.mean())
-    results = members.score(found, observations.read(named), found.manifest.zone or zone.of_longitude(place))
-    result(json.dumps(results, indent=1) if arguments.json else members.page(results))
 
 
 COMMAND = Command("score", "score a run against observations of its fire", _DETAIL, RUNS, _run, _add)

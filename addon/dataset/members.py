@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..jobs import convert as job
 from ..progress import MessageCallback, Progress, no_message, silent
-from ..run.ensemble import ensemble
+from ..run import collections
 from ..shot.schema.did_you_mean import suggestion
 from .plan import Plan
 
@@ -23,27 +23,23 @@ def chosen(path: Path, wanted: Sequence[str]) -> list[str]:
     InputError
         The ensemble cannot be read.
     """
-    return _names(path) if list(wanted) == [ALL] else list(wanted)
+    return collections.names(path) if list(wanted) == [ALL] else list(wanted)
 
 
 def fault(path: Path, wanted: Sequence[str]) -> str | None:
     """Return why a run folder and a list of members do not belong together, or None."""
-    if not (path.is_dir() and ensemble.sniff(path)):
+    if not (path.is_dir() and collections.sniff(path)):
         return f"{path} is not an ensemble; leave out members" if wanted else None
     if not wanted:
         return f'{path} is an ensemble; choose its members: members = ["{ALL}"]'
     if list(wanted) == [ALL]:
         return None
-    known = _names(path)
+    known = collections.names(path)
     missing = next((name for name in wanted if name not in known), None)
     if missing is None:
         return None
     hint = suggestion(missing, known) or f"; known here: {', '.join(known[:20])}"
     return f'{path} has no member "{missing}"{hint}'
-
-
-def _names(path: Path) -> list[str]:
-    return [member.name for member in ensemble.open(path).members]
 
 
 def folder(path: Path, member: str) -> Path:

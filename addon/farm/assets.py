@@ -11,7 +11,7 @@ from pathlib import Path
 from .. import limits
 from ..errors import InputError, input_error
 from ..run import content
-from ..shot import forecast
+from ..shot import scene_inputs
 from ..shot.shot import Shot
 from ..shot.surface import observed, orthophoto
 from ..tiles.sources.local import relative
@@ -44,7 +44,7 @@ def list_assets(shot: Shot) -> list[Path]:
     if stations.enabled:
         optional += [stations.file, stations.footprints, stations.routes_file]
     paths += [path for path in optional if path is not None]
-    paths += forecast.files(settings)
+    paths += scene_inputs.files(settings)
     paths += [part for path in observed.files(settings) for part in _with_parts(path)]
     paths += [path for camera in settings.cameras for path in camera.rig.input_files()]
     above = settings.path.parent / settings.tiles.root if settings.tiles.root else None

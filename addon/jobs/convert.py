@@ -9,7 +9,7 @@ import tomllib
 from functools import partial
 from pathlib import Path
 
-from ..errors import Error, input_error, reading
+from ..errors import Error, reading
 from ..progress import MessageCallback, Progress, no_message, silent
 from . import worker
 
@@ -59,60 +59,17 @@ def run(
     Options.of(start, at, projection, interval, files, name, zone)
     write.check(out)
     options = [start, at, projection, interval, name, zone]
-    work = partial(in_process, _absolute(files), out.absolute(), options, member=member, wind=forecast)
-    _run(work, paths[0], progress, tell, stop)
+    work = partial(
+        in_process, [path.absolute() for path in files], out.absolute(), options, member=member, wind=forecast
+    )
+    work_apart(work, paths[0], progress, tell, stop)
     return out
 
 
-def run_members(
-    paths: list[Path],
-    out: Path,
-    start: str = "",
-    at: str = "",
-    projection: str = "",
-    horizon: float = 0.0,
-    progress: Progress = silent,
-    tell: MessageCallback = no_message,
-    stop: worker.Stop | None = None,
-    name: str = "",
-    zone: str = "",
-) -> Path:
-    """Convert the members of a forecast to an ensemble in the folder `out`, and return that folder.
-
-    Parameters
-    ----------
-    paths
-        A folder of run folders, a list of runs (``ensemble.toml``), or the files and folders of a model.
-    horizon
-        Length of the forecast, s; 0: from the files.
-
-    Raises
-    ------
-    InputError, Error, UsageError, StoppedError
-        As `run`.
-    """
-    from ..run.models import write
-    from ..run.models.model import Options
-
-    for path in paths:
-        if not path.exists():
-            raise input_error(path, "there is no such file or folder; check the path")
-    Options.of(start, at, projection, 0.0, [], name, zone)
-    write.check(out)
-    options = [start, at, projection, horizon, name, zone]
-    work = partial(members_in_process, _absolute(paths), out.absolute(), options)
-    _run(work, paths[0], progress, tell, stop)
-    return out
-
-
-def _absolute(paths: list[Path]) -> list[Path]:
-    return [path.absolute() for path in paths]
-
-
-def _run(
+def work_apart(
     work: worker.Work[None], path: Path, progress: Progress, tell: MessageCallback, stop: worker.Stop | None
 ) -> None:
-    """Work in a worker process.
+    """Work in a worker process that a damaged file may crash.
 
     Raises
     ------
@@ -123,35 +80,6 @@ def _run(
         worker.run(work, progress, stop=stop, tell=tell, blender=False, patience=PATIENCE)
     except worker.EndedError as error:
         raise Error(f"{path}: reading it {error}; the file is most likely damaged") from None
-
-
-def members_in_process(
-    files: list[Path],
-    out: Path,
-    options: list,
-    progress: Progress = silent,
-    tell: MessageCallback = no_message,
-) -> None:
-    """Worker side: gather runs, or select the reader, read and write."""
-    from ..run.ensemble import gather, member_set, readers
-    from ..run.models.model import Options
-
-    start, at, projection, horizon, name, zone = options
-    with reading(files[0]):
-        if len(files) == 1 and gather.sniff(files[0]):
-            made, notes = gather.convert(files[0], out, horizon), []
-        else:
-            said = Options.of(start, at, projection, 0.0, [], name, zone)
-            found = readers.read(files, said, horizon)
-            made, notes = member_set.save(found, out, files[0]), found.notes
-    total, issued = len(made.members) + len(made.left_out), ""
-    if made.issued:
-        issued = f" after {made.issued:%Y-%m-%d %H:%M} UTC"
-    tell(f"{len(made.members)} of {total} members, up to {made.horizon / 3600.0:.4g} h{issued}")
-    for each in made.left_out:
-        tell(f"left out: {each.name}: {each.reason}")
-    for text in notes:
-        tell(text)
 
 
 def default_output(
@@ -205,8 +133,7 @@ def in_process(
     wind: list[Path] | None = None,
 ) -> None:
     """Worker side: select the reader, read and write."""
-    from ..run import readers
-    from ..run.ensemble import member_run
+    from ..run import collections, readers
     from ..run.models import forecast_wind, write
     from ..run.models.model import Options
 
@@ -214,7 +141,7 @@ def in_process(
     said = Options.of(start, at, projection, interval, files, *more)
     with reading(files[0]):
         if member:
-            model = member_run.read(files, said, member)
+            model = collections.read(files, said, member)
         else:
             reader = readers.reader(files)
             tell(f"{files[0].name} is {reader.NAME}")

@@ -111,8 +111,8 @@ def _inputs(
     found = dict[str, Hashes]()
     for made_with in settings.values():
         run = made_with.get("run")
-        members = made_with.get("members", {})  # of the run's ensemble
-        for hashes in (run and run | members, *made_with.get("beside", {}).values()):
+        further = made_with.get("further", {})  # files of the scene file
+        for hashes in (run and run | further, *made_with.get("beside", {}).values()):
             if not hashes:
                 continue
             label = next((label for label, fields in runs.items() if _agree(hashes, fields)), None)

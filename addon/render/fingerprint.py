@@ -14,7 +14,7 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..shot import comparison, forecast, passes, picture_credits, schema
+from ..shot import comparison, passes, picture_credits, scene_inputs, schema
 from ..shot.settings import Camera, Settings, code_fingerprint, mount
 from ..shot.shot import Shot
 from ..shot.stations import labels, station_signs
@@ -125,14 +125,13 @@ def compute_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = 
         label: comparison.for_run(shot, label) for label in {view.partition("@")[2] for view, _ in pairs}
     }
     runs = {label: _run_inputs(own, progress) | more for label, own in shots.items()}
-    members = forecast.inputs(shot.settings, progress)
     made_with, find = {}, tile_cut.finder(shot)
     for view, name in sorted(pairs):
         label = view.partition("@")[2]
         made_with[view, name] = collect_inputs(shots[label].settings, runs[label], view, name)
         made_with[view, name] |= _other_runs(shots[label], name, progress) | _tiles(shot, view, name, find)
-        if members and "forecast" in passes.known()[name].all_aspects:
-            made_with[view, name] |= {"members": members}
+        if further := scene_inputs.inputs(shot.settings, passes.known()[name].all_aspects, progress):
+            made_with[view, name] |= {"further": further}
     return made_with
 
 

@@ -1,15 +1,16 @@
-"""Citations of a run or an ensemble: software, algorithms, fire model, facts and observations."""
+"""Citations of a run: software, algorithms, fire model, facts and observations."""
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import firetwin_core
 from firetwin_core.run import Run
 
 from ..data import history
+from ..progress import result
 from . import info, observations
-from .ensemble.ensemble import Ensemble
 
 PAPER = (
     "Raha, M. H., Tavakkoli, A. R., Webb, C., Habibpour, M., Coen, J., Rowell, E., Afghah, F.: FIRETWIN: "
@@ -22,19 +23,15 @@ def of_run(run: Run) -> list[dict[str, str]]:
     return [*_software(), *_model(run), *_event(run), *_observations(Path(run.path))]
 
 
-def of_ensemble(found: Ensemble) -> list[dict[str, str]]:
-    """List the sources of an ensemble (see `of_run`)."""
-    told = found.manifest
-    text = f"{told.model or 'not named in ensemble.toml'}; {told.source or 'source not given'}"
-    rows = [*_software(), {"kind": "fire model", "text": text}]
-    if told.synthetic:
-        rows.append(_synthetic(told.name))
-    return rows
+def of_model(name: str, made: str, synthetic: bool) -> list[dict[str, str]]:
+    """List the sources of other output of a fire model, which `made` describes (see `of_run`)."""
+    return [*_software(), {"kind": "fire model", "text": made}, *([_synthetic(name)] if synthetic else [])]
 
 
-def page(rows: list[dict[str, str]]) -> str:
-    """Format rows for people."""
-    return "\n".join(f"{row['kind']:<14}{row['text']}" for row in rows)
+def show(rows: list[dict[str, str]], as_json: bool) -> None:
+    """Print rows for people, or as JSON."""
+    page = "\n".join(f"{row['kind']:<14}{row['text']}" for row in rows)
+    result(json.dumps(rows, indent=1) if as_json else page)
 
 
 def _software() -> list[dict[str, str]]:

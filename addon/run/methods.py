@@ -14,7 +14,6 @@ from firetwin_core.run import Run
 from ..progress import count
 from . import areas, citations, info, times
 from .burned_fraction import FIELD
-from .ensemble.manifest import Manifest
 
 _AREAS = {
     "fuel_arrival_time": "arrival times of fuel cells",
@@ -33,8 +32,8 @@ class Inputs:
         Name of the elevation model; "": the run's own.
     observations
         Names of files to which the run was compared.
-    forecast
-        Ensemble of the work.
+    sentences
+        Sentences on further inputs.
     rendered
         Programs that rendered its pictures, with versions.
     exercise
@@ -43,7 +42,7 @@ class Inputs:
 
     elevation: str = ""
     observations: Sequence[str] = ()
-    forecast: Manifest | None = None
+    sentences: Sequence[str] = ()
     rendered: Sequence[tuple[str, str]] = ()
     exercise: bool = False
 
@@ -65,8 +64,7 @@ def _sentences(run: Run, inputs: Inputs) -> Iterator[str]:
         yield f"The run is compared with {', '.join(inputs.observations)}."
     else:
         yield "The run is not compared with observations."
-    if inputs.forecast:
-        yield _forecast(inputs.forecast)
+    yield from inputs.sentences
     python = f"Python {platform.python_version()} and NumPy {np.__version__}"
     yield f"Firetwin {firetwin_core.__version__} with {python} computed areas, maps and tables."
     if inputs.rendered:
@@ -104,15 +102,3 @@ def _cells(latitude: np.ndarray, longitude: np.ndarray) -> str:
     dx, dy = areas.cell_size(latitude, longitude)
     size = f"{dx:.4g} m" if abs(dx - dy) < 0.005 * dx else f"{dx:.4g} x {dy:.4g} m"
     return f"{len(longitude)} x {len(latitude)} cells of {size}"
-
-
-def _forecast(told: Manifest) -> str:
-    total = len(told.members) + len(told.left_out)
-    invented = "synthetic " if told.synthetic else ""
-    issued = f", issued {told.issued:%Y-%m-%d %H:%M %Z}" if told.issued else ""
-    differ = f"; members differ in {told.perturbed}" if told.perturbed else ""
-    model = told.model or "model not named"
-    return (
-        f"The {invented}forecast {told.name} ({model}) has {len(told.members)} of {total} members"
-        f"{issued}{differ}."
-    )

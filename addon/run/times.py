@@ -31,6 +31,12 @@ def text(when: datetime, zone: str, seconds: bool = False) -> str:
     return f"{local.day} {local:%b %Y} {clock} {local.tzname()}"
 
 
+def age(seconds: float) -> str:
+    """Format an age: ``5.5 h``, ``12 days``."""
+    hours = seconds / 3600.0
+    return f"{hours:.1f} h" if abs(hours) < 72.0 else f"{hours / 24.0:,.0f} days"
+
+
 def _start(run: Run) -> datetime:
     start = datetime.fromisoformat(run.start)
     return start if start.tzinfo else start.replace(tzinfo=UTC)

@@ -16,6 +16,7 @@ import importlib
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal
@@ -63,6 +64,8 @@ class Pass:
         next to it and what all passes depend on.
     linked
         Suffixes of files whose name its EXR contains, which therefore keep their names in deliveries.
+    requires
+        Key of the scene file that must be set, such as "tiles.root", and words for it with a remedy.
     """
 
     name: str
@@ -74,6 +77,7 @@ class Pass:
     min_rows: int = 0
     code: tuple[str, ...] = ()
     linked: tuple[str, ...] = ()
+    requires: tuple[str, str] = ("", "")
 
     @property
     def finished(self) -> bool:
@@ -295,8 +299,9 @@ def refused(each: Pass, camera: CameraSettings, settings: Any) -> str:
         return (
             f"{cannot} with EEVEE, whose pixels have 11 bits, too few for tree numbers; render it with Cycles"
         )
-    if "forecast" in each.aspects and settings.forecast.ensemble is None:
-        return f"{cannot} without an ensemble; name its folder as forecast.ensemble"
+    key, what = each.requires
+    if key and attrgetter(key)(settings) is None:
+        return f"{cannot} without {what}"
     if is_marched(each):
         if eevee:
             return f"{cannot} with EEVEE, which renders smoke and surfaces together; render it with Cycles"

@@ -6,7 +6,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..run import areas, times
-from . import forecast, frames
+from . import frames, scene_inputs
 from .schema import scene_text
 from .settings import Settings
 from .stations import labels, station_signs
@@ -32,7 +32,7 @@ def check(settings: Settings, run: Run) -> None:
     globe_picture.check(settings)
     _smoke(settings)
     observed.check(settings)
-    forecast.check(settings, run)
+    scene_inputs.check(settings, run)
     labels.check(settings, run)
     station_signs.check(settings, run)
     for index, camera in enumerate(settings.cameras):

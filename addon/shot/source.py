@@ -85,7 +85,7 @@ class ShotSource:
             The scene file has no comparison run with the name.
         """
         from ..run import readers
-        from . import comparison, forecast, picture_credits, run_checks
+        from . import comparison, picture_credits, run_checks, scene_inputs
         from .runs import scene_runs
         from .shot import Shot
 
@@ -94,7 +94,7 @@ class ShotSource:
         run_checks.check(settings, run)
         shot = Shot(settings, run)
         scene_runs.check(settings, run, shot.others)
-        forecast.check_others(settings, shot.others)
+        scene_inputs.check_others(settings, shot.others)
         if self.beside and self.beside not in shot.others:
             names = ", ".join(shot.others) or "none"
             raise UsageError(f'--run: there is no "{self.beside}" in [[runs]]; the scene has {names}')

@@ -39,8 +39,7 @@ time.
 With --tonnes-per-hour the result is the cheapest set that delivers this much; the exit status is 1 if there
 is no such set within --budget. With --budget only, the result is the earliest resources that the budget pays
 for. Units and assumptions are printed. With --run the list gives the time at which the fire reaches each
-station, or the closest approach of the fire; with --ensemble the number of members of a forecast that burn
-it by when. For a file without resources the stations are listed, as with
+station, or the closest approach of the fire. For a file without resources the stations are listed, as with
 --stations."""
 
 _LENGTHS = {"": 1.0, "km": 1.0, "m": 0.001, "mi": 1.609344}
@@ -104,10 +103,6 @@ def add_resources(parser: argparse.ArgumentParser) -> None:
         "--run", metavar="RUN", type=types.path, help="run folder, or scene file (its first run)"
     )
     parser.add_argument(
-        "--ensemble", metavar="DIR", type=types.path,
-        help="forecast of many members: times by which 10 and 50 %% of them burn each station (none)",
-    )  # fmt: skip
-    parser.add_argument(
         "--near", metavar="PLACE", type=_place,
         help="destination: LAT,LON; with --run also ignition, or head (of the fire at --available-at)",
     )  # fmt: skip
@@ -163,7 +158,7 @@ def add_resources(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--ahead",
         action="store_true",
-        help="only stations that the fire of --run, or else a tenth of the members, reaches, earliest first",
+        help="only stations that the fire of --run reaches, earliest first",
     )
     parser.add_argument(
         "--clearance", metavar="LENGTH", type=_length, default=0.5,

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from datetime import datetime
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from firetwin_core.run import Run
@@ -15,23 +15,49 @@ from firetwin_core.run import Run
 from ..escaped import escaped
 from ..progress import count
 from ..run import times, zone
-from ..run.ensemble.ensemble import Ensemble
 from . import arrival_text, fire_arrival, search, station_search
-from .member_arrivals import MemberArrivals
 from .query import Query
 from .records import EXERCISE, Source
 from .station_file import StationFile
 
 
+class Further(Protocol):
+    """Further arrivals at the stations of the matches.
+
+    `name` is their key in JSON data, `late` the reason to omit stations that `ahead` omits.
+    """
+
+    name: str
+    late: str
+
+    def heads(self) -> list[str]:
+        """Return the titles of the columns."""
+
+    def cells(self, station: int) -> list[str]:
+        """Return the cells of a station."""
+
+    def as_json(self, station: int) -> dict[str, Any]:
+        """Return JSON data of a station."""
+
+    def ahead(self, after: datetime | None) -> list[int]:
+        """List stations that the fire reaches after a time, earliest first."""
+
+    def notes(self) -> list[str]:
+        """Describe the arrivals."""
+
+    def select(self, order: list[int]) -> Further:
+        """Return the arrivals at these stations."""
+
+
 @dataclass(frozen=True)
 class SearchAnswer:
-    """Result of a search, with the fire of a run, and of a forecast's members, if they are given."""
+    """Result of a search, with the fire of a run, and further arrivals, if they are given."""
 
     station_file: StationFile
     query: Query
     found: search.ResourceMatches | station_search.StationMatches
     run: Run | None = None
-    ensemble: Ensemble | None = None
+    further: tuple[Further, ...] = ()
 
     @property
     def shortfall(self) -> str:
@@ -51,22 +77,15 @@ class SearchAnswer:
         at = [each.station for each in self.matches]
         return fire_arrival.sample(self.run, [each.latitude for each in at], [each.longitude for each in at])
 
-    @cached_property
-    def forecast(self) -> MemberArrivals | None:
-        """Arrival of the members at the station of each match."""
-        if self.ensemble is None:
-            return None
-        return MemberArrivals.at(self.ensemble, [each.station for each in self.matches], self.run)
-
     def ahead(self, clearance_km: float) -> SearchAnswer:
         """Select the stations that the fire reaches or approaches, after the time of the query if it has one.
 
         They are sorted by this time. Stations on ground that burned before the run are omitted. Without a
-        run, they are the stations that a tenth of the members reach.
+        run, the first further arrivals decide.
         """
-        if self.run is None and self.forecast is not None:
-            return self._ahead_of_members(self.forecast)
-        result, arrivals, run = self.found, self.arrivals, self.run
+        if self.run is None and self.further:
+            return self._ahead_of(self.further[0])
+        arrivals, run = self.arrivals, self.run
         if arrivals is None or run is None:
             return self
         then = -np.inf if self.query.at is None else times.seconds(run, self.query.at)
@@ -78,15 +97,19 @@ class SearchAnswer:
         )
         order = np.flatnonzero(keep)
         order = order[np.argsort(arrivals.nearest_time[order], kind="stable")]
-        matches: Any = [result.matches[k] for k in order]
-        return replace(self, found=replace(result, matches=matches, left_out=result.left_out | dict(reasons)))
+        return self._select(order.tolist(), dict(reasons))
 
-    def _ahead_of_members(self, forecast: MemberArrivals) -> SearchAnswer:
-        found, order = self.found, forecast.ahead(self.query.at)
-        matches: Any = [found.matches[k] for k in order]
-        far = len(found.matches) - len(matches)
-        reasons = {"forecast: a tenth of the members do not reach it after that time": far} if far else {}
-        return replace(self, found=replace(found, matches=matches, left_out=found.left_out | reasons))
+    def _ahead_of(self, further: Further) -> SearchAnswer:
+        order = further.ahead(self.query.at)
+        omitted = len(self.found.matches) - len(order)
+        return self._select(order, {further.late: omitted} if omitted else {})
+
+    def _select(self, order: list[int], reasons: dict[str, int]) -> SearchAnswer:
+        """Keep matches by their indices; the others are omitted for these reasons."""
+        result, further = self.found, tuple(each.select(order) for each in self.further)
+        matches: Any = [result.matches[k] for k in order]
+        kept = replace(result, matches=matches, left_out=result.left_out | reasons)
+        return replace(self, found=kept, further=further)
 
     @property
     def exercise(self) -> bool:
@@ -123,7 +146,7 @@ class SearchAnswer:
                     "fire: times are estimated from heat fluxes; ground burned before the run counts as not "
                     "reached"
                 )
-        return lines + (self.forecast.notes() if self.forecast else [])
+        return lines + [note for each in self.further for note in each.notes()]
 
     def as_json(self) -> dict[str, Any]:
         """Return JSON data; lengths in km, times in UTC."""
@@ -140,7 +163,7 @@ class SearchAnswer:
             "matches": [
                 asdict(each)
                 | ({"fire": self._fire(k)} if self.run else {})
-                | ({"forecast": self.forecast.as_json(k)} if self.forecast else {})
+                | {further.name: further.as_json(k) for further in self.further}
                 for k, each in enumerate(self.matches)
             ],
         }
@@ -169,7 +192,10 @@ class SearchAnswer:
                     "resource",
                     "station",
                 ]
-            more = [*(["fire"] if self.run else []), *(self.forecast.heads() if self.forecast else [])]
+            more = [
+                *(["fire"] if self.run else []),
+                *(head for each in self.further for head in each.heads()),
+            ]
             lines += _table(heads + more, rows)
         lines.append(self._sum())
         lines += [f"left out: {number:,} {reason}" for reason, number in result.left_out.items()]
@@ -188,7 +214,7 @@ class SearchAnswer:
 
     def _row(self, index: int, match: search.Match | station_search.StationMatch) -> list[str]:
         fire = [self._arrival_text(index).headline] if self.run else []
-        fire += self.forecast.cells(index) if self.forecast else []
+        fire += [cell for each in self.further for cell in each.cells(index)]
         if isinstance(match, station_search.StationMatch):
             return [_number(match.distance_km, 1), match.station.origin, escaped(match.station.name), *fire]
         each = match.resource

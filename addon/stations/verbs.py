@@ -11,11 +11,11 @@ from pathlib import Path
 
 from firetwin_core.run import Run
 
+from ..command import amend
 from ..data import history
 from ..errors import InputError, UsageError, input_error
 from ..progress import count, result, say
 from ..run import labels, times, zone
-from ..run.ensemble import place_arrivals
 from . import exercise, ignition, importers, merging, page, reading, search, station_search, writing
 from .import_options import ImportOptions
 from .import_rows import Batch
@@ -140,11 +140,11 @@ def find_resources(arguments: argparse.Namespace, fire: OpenFire) -> int:
         )
     else:
         matches = search.survey(station_file, query)
-    members = None
-    if arguments.ensemble is not None:
-        members = place_arrivals.open_forecast(arguments.ensemble, "the list")
-    answer = page.SearchAnswer(station_file, query, matches, opened.run if opened else None, members)
+    run = opened.run if opened else None
+    answer = amend(arguments, page.SearchAnswer(station_file, query, matches, run))
     if arguments.ahead:
+        if run is None and not answer.further:
+            raise UsageError("--ahead: needs the fire of a run; name it with --run")
         answer = answer.ahead(arguments.clearance)
     result(
         json.dumps(answer.as_json(), indent=1, ensure_ascii=False) if arguments.json else answer.format_text()
@@ -167,8 +167,6 @@ def _check_query(arguments: argparse.Namespace) -> None:
         raise UsageError(f"--near: {arguments.near} needs the fire of a run; name it with --run")
     if arguments.near == "head" and arguments.available_at is None:
         raise UsageError("--near: head needs a time; give it with --available-at")
-    if arguments.ahead and arguments.run is None and arguments.ensemble is None:
-        raise UsageError("--ahead: needs the fire of a run or a forecast; name it with --run or --ensemble")
     for name in ("within", "minutes", "tonnes_per_hour"):
         if getattr(arguments, name) is not None and arguments.near is None:
             raise UsageError(f"--{name.replace('_', '-')}: needs a destination; give it with --near")

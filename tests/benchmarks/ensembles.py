@@ -17,11 +17,11 @@ import numpy as np
 from firetwin import memory
 from firetwin.bench.harness import OURS, Bench
 from firetwin.bench.timing import Runner
+from firetwin.forecasts.ensemble import ensemble, statistics, write
+from firetwin.forecasts.ensemble.ensemble import Ensemble
+from firetwin.forecasts.ensemble.manifest import Manifest, Member
 from firetwin.jobs import worker
 from firetwin.progress import MessageCallback, Progress, no_message, silent
-from firetwin.run.ensemble import ensemble, statistics, write
-from firetwin.run.ensemble.ensemble import Ensemble
-from firetwin.run.ensemble.manifest import Manifest, Member
 from numpy.typing import NDArray
 
 HORIZON = 86_400.0  # s

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import rendered
 from firetwin.blender import owned
+from firetwin.forecasts.ensemble import write
+from firetwin.forecasts.ensemble.manifest import Manifest, Member
 from firetwin.render.store import Store
-from firetwin.run.ensemble import write
-from firetwin.run.ensemble.manifest import Manifest, Member
 from firetwin.scene.fire import build as fire
 from firetwin.shot.settings import OtherRun
 from firetwin.shot.shot import Shot

@@ -10,9 +10,9 @@ from firetwin_core.run import Run
 
 from ...html_text import quote
 from .. import times
+from ..measure import ACRES, METRES, Measure
 from . import plots, shapes, used
 from .grid import ScoreGrid
-from .measure import ACRES, METRES, Measure
 from .overlap import HELP
 from .page import arrival, local, said, theirs
 

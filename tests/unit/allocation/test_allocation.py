@@ -11,7 +11,7 @@ from datetime import UTC, datetime, timedelta
 import numpy as np
 import pytest
 import small_stations
-from fires import LATITUDE, LONGITUDE, axes, circle, round_fire
+from fires import LATITUDE, LONGITUDE, axes, round_fire
 from firetwin import cli
 from firetwin.allocation import (
     LIMITS,
@@ -26,9 +26,6 @@ from firetwin.allocation import (
     shortfall,
     symmetry,
 )
-from firetwin.allocation import (
-    members as member_lines,
-)
 from firetwin.allocation.control_line import LineOptions
 from firetwin.allocation.model import Options
 from firetwin.allocation.problem import Problem, Request, set_escape_loss
@@ -36,8 +33,6 @@ from firetwin.allocation.resources import Unit
 from firetwin.errors import Error, InputError, UsageError
 from firetwin.imaging import map_symbols
 from firetwin.run import areas, readers
-from firetwin.run.ensemble import place_arrivals, write
-from firetwin.run.ensemble.manifest import Manifest, Member
 from firetwin.stations import measures, reading
 from firetwin.stations.records import EXERCISE, Availability, Station
 from hypothesis import given, settings
@@ -292,7 +287,7 @@ def test_what_cannot_be_held_is_said_with_the_nearest_plan(round_run, station_fi
         assert plan["line"] + plan["missing"] == pytest.approx(plan["front"], abs=0.2)
         assert plan["line"] == pytest.approx(sum(each["line"] for each in plan["resources"]), abs=0.2)
         assert plan["hour_of_all"] == 1.0
-    text = page.format_text(result)
+    text = page.format_text(result, {})
     assert text.count("cannot be held, with a front of") == 3
     assert "  nearest feasible plan: 0 m (0 %) by hour 1, for another 0.00 USD" in text
     assert "  all resources together would contain it at hour 1: they build " in text
@@ -365,7 +360,7 @@ def test_a_suggestion_says_what_it_is(round_run):
     sent = [each["id"] for part in result["divisions"] for each in part["resources"]]
     assert len(sent) == len(set(sent))
     assert result["sums"]["cost"] == 100.0 * len(sent)
-    text = page.format_text(result)
+    text = page.format_text(result, {})
     assert text.startswith(f"*** {EXERCISE} ***")
     assert text.endswith(f"*** {EXERCISE} ***")
     assert all(f"- {limit}" in text for limit in LIMITS)
@@ -469,12 +464,11 @@ def test_an_exercise_of_the_program_can_be_allocated(round_run, tmp_path, capsys
     assert found["units"]["cost"] == "USD"
 
 
-def test_the_command_prints_a_suggestion_or_why_there_is_none(round_run, station_file, forecast, capsys):
+def test_the_command_prints_a_suggestion_or_why_there_is_none(round_run, station_file, capsys):
     line = ["allocate", str(station_file), str(round_run), "--hours", "2", "--divisions", "3"]
-    sent = "--standard-response", "engine/3=2", "--minutes", "45", "--ensemble", str(forecast)
+    sent = "--standard-response", "engine/3=2", "--minutes", "45"
     assert cli.main([*line, *sent]) == 0
     text = capsys.readouterr().out
-    assert text.count("  members of the forecast at this line: 2 of 20 by ") == 3
     assert "division A" in text
     assert "cost     200.00 USD (exercise)" in text
     assert "- Dozer (dozer/2) is committed" in text
@@ -483,41 +477,6 @@ def test_the_command_prints_a_suggestion_or_why_there_is_none(round_run, station
     out, err = capsys.readouterr()
     assert json.loads(out)["status"] == "infeasible"
     assert "the budget of 1.00 is too small by" in err
-
-
-@pytest.fixture
-def forecast(tmp_path):
-    """Of 20 circular fires, 2 grow at 1 m/s, 8 as the run does, at 0.5 m/s, and 10 stay near the origin."""
-    latitude, longitude = axes(160)
-    slow = np.where(round_fire(latitude, longitude) <= 200.0, 0.0, np.inf)
-    fast, same = (round_fire(latitude, longitude, speed) for speed in (1.0, 0.5))
-    each = [fast] * 2 + [same] * 8 + [slow] * 10
-    head = Manifest("Circles", "", datetime(2014, 9, 17, 4, 35, tzinfo=UTC), 7200.0, ())
-    named = [(Member(f"{k:02}"), fire.astype(np.float32)) for k, fire in enumerate(each)]
-    write.write(tmp_path / "ensemble", head, latitude, longitude, named)
-    return tmp_path / "ensemble"
-
-
-def test_members_of_a_forecast_at_a_control_line(round_run, forecast):
-    """A line 2400 m from the origin is reached after 40 and 80 minutes, and its hour is after 70 minutes."""
-    about = {"kind": "control_line", "division": "A", "hour": 1.0}
-    ring = circle(2400.0).tolist()
-    drawn = {"features": [{"properties": about, "geometry": {"coordinates": [ring[:200], ring[200:]]}}]}
-    result = {"from": "2014-09-17T04:45:00Z", "divisions": [{"name": "A"}, {"name": "B"}], "assumptions": []}
-    opened = place_arrivals.open_forecast(forecast, "the list")
-    member_lines.add(result, readers.open(round_run), opened, drawn)
-    told = result["divisions"][0]["forecast"]
-    assert (told["members"], told["hour"], told["reached_by_hour"]) == (20, 1.0, 2)
-    first, half, most = (each["time"] for each in told["reached_by"])
-    assert most is None
-    for reached, minutes in ((first, 40.0), (half, 80.0)):
-        after = datetime.fromisoformat(reached) - datetime(2014, 9, 17, 4, 35, tzinfo=UTC)
-        assert after.total_seconds() / 60.0 == pytest.approx(minutes, abs=1.5)
-    assert told["text"].endswith("; not in 10 of 20 by 16 Sep 22:35, when the forecast ends")
-    assert "forecast" not in result["divisions"][1]
-    assert result["assumptions"][0].startswith(
-        "forecast: Circles, 20 of 20 members, issued 16 Sep 2014 20:35"
-    )
 
 
 @pytest.mark.parametrize("text", ["engine", "engine=0", "engine=x", "=3", "engine=1,engine=2", ""])

@@ -7,8 +7,8 @@ import pytest
 from firetwin.dataset import members, plan_file, record
 from firetwin.dataset.splits import Splits
 from firetwin.errors import InputError
-from firetwin.run.ensemble import write
-from firetwin.run.ensemble.manifest import Manifest, Member
+from firetwin.forecasts.ensemble import write
+from firetwin.forecasts.ensemble.manifest import Manifest, Member
 
 PLAN = """\
 split_by = "run"

@@ -1,12 +1,6 @@
 """Citations: each source of a run once, and no invented one."""
 
-from datetime import UTC, datetime
-
-import numpy as np
-from firetwin import cli
 from firetwin.run import citations, readers
-from firetwin.run.ensemble import ensemble, write
-from firetwin.run.ensemble.manifest import Manifest, Member
 from small_run import RUN_TOML
 
 MODEL = '\n[source]\nmodel = "ELMFIRE"\nversion = "2025.12"\n'
@@ -39,14 +33,3 @@ def test_a_run_without_a_model_says_so(make_run):
     toml = RUN_TOML.replace("synthetic = true\n", "")
     rows = citations.of_run(readers.open(make_run(toml=toml)))
     assert texts(rows, "fire model") == ["not named in run.toml; name the model and its version"]
-
-
-def test_an_ensemble_and_the_command(tmp_path, capsys):
-    head = Manifest("Many", "PROPAGATOR", datetime(2024, 1, 1, tzinfo=UTC), 3600.0, (), source="20 grids")
-    axes = np.array([38.8]), np.array([-120.6])
-    write.write(tmp_path / "e", head, *axes, [(Member("1"), np.zeros((1, 1)))])
-    assert texts(citations.of_ensemble(ensemble.open(tmp_path / "e")), "fire model") == [
-        "PROPAGATOR; 20 grids"
-    ]
-    assert cli.main(["cite", str(tmp_path / "e")]) == 0
-    assert "PROPAGATOR; 20 grids" in capsys.readouterr().out

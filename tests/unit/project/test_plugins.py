@@ -69,7 +69,7 @@ SOURCE = Soot
 
 ADDED = {
     "run/readers": READER,
-    "run/ensemble/readers": ENSEMBLE,
+    "forecasts/ensemble/readers": ENSEMBLE,
     "export": EXPORT,
     "dataset/formats": LABELS,
     "smoke/sources": SOURCE,
@@ -82,7 +82,7 @@ from firetwin.dataset import formats as labels
 from firetwin.errors import InputError
 from firetwin.export import formats as exports
 from firetwin.run import readers
-from firetwin.run.ensemble import readers as ensembles
+from firetwin.forecasts.ensemble import readers as ensembles
 from firetwin.shot.sections import SmokeSettings, Time
 from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot

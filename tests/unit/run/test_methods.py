@@ -1,10 +1,7 @@
 """Methods paragraph: model, grid, terrain, observations, software, and what is not observed."""
 
-from datetime import UTC, datetime
-
 import firetwin_core
 from firetwin.run import methods, readers
-from firetwin.run.ensemble.manifest import LeftOut, Manifest, Member
 from firetwin.run.methods import Inputs
 from small_run import RUN_TOML
 
@@ -27,21 +24,19 @@ def test_a_synthetic_run(make_run):
 
 def test_a_run_of_a_model_with_all_inputs(make_run):
     run = readers.open(make_run(toml=RUN_TOML.replace("synthetic = true\n", "") + MODEL))
-    issued = datetime(2014, 9, 17, 4, 45, tzinfo=UTC)
-    members = (Member("1"), Member("2"))
-    told = Manifest(
-        "Evening", "", issued, 3600.0, members, (LeftOut("3", "failed"),), perturbed="wind", synthetic=True
-    )
     text = methods.paragraph(
-        run, Inputs("dem.tif", ("a.geojson", "b.csv"), told, (("Blender", "4.5.15"),), exercise=True)
+        run,
+        Inputs(
+            *("dem.tif", ("a.geojson", "b.csv"), ("Further inputs.",), (("Blender", "4.5.15"),)),
+            exercise=True,
+        ),
     )
     for sentence in (
         "The fire model ELMFIRE, version 2025.12 computed the run Small.",
         "converted the files of the model with 2 assumptions (run.toml).",
         "Elevation is from dem.tif, fuels are from the run.",
         "The run is compared with a.geojson, b.csv.",
-        "The synthetic forecast Evening (model not named) has 2 of 3 members, issued 2014-09-17 04:45 UTC; "
-        "members differ in wind.",
+        "Further inputs.",
         "Blender 4.5.15 rendered the pictures. Trees, flames, embers and fine smoke are modelled",
         "Stations, resources or lines are invented for an exercise.",
     ):

@@ -2,16 +2,13 @@
 
 import json
 import re
-from datetime import UTC, datetime, timedelta
+from datetime import timedelta
 
 import numpy as np
 import pytest
-import small_stations
 from firetwin import cli
 from firetwin.commands import _fire
 from firetwin.run import times
-from firetwin.run.ensemble import write
-from firetwin.run.ensemble.manifest import Manifest, Member
 from firetwin.stations import fire_arrival, page, reading, search, station_search, writing
 from firetwin.stations.arguments import _length, parse_types
 from firetwin.stations.query import Query
@@ -162,52 +159,6 @@ def test_what_lies_ahead_of_the_fire_and_when(tmp_path, run, capsys):
     printed = firetwin(capsys, *asked, "--clearance", "50m")[1]
     for line in ("1 fire: there before that time", "1 fire: not reached", "1 fire: outside of the run"):
         assert f"left out: {line}" in printed
-
-
-@pytest.fixture
-def members(tmp_path):
-    """Twenty members on the grid of the small run: 2 burn all in an hour, 8 in five, 10 nothing there."""
-    fields = small_fields()
-    latitude, longitude = fields["fuel_latitude"], fields["fuel_longitude"]
-    shape = len(latitude), len(longitude)
-    hours = [1.0] * 2 + [5.0] * 8 + [np.inf] * 10
-    each = [(Member(f"{k:02}"), np.full(shape, 3600.0 * hour, np.float32)) for k, hour in enumerate(hours)]
-    head = Manifest("Many", "", datetime(2014, 9, 17, 4, 45, tzinfo=UTC), 6 * 3600.0, ())
-    write.write(tmp_path / "ensemble", head, latitude, longitude, each)
-    return tmp_path / "ensemble"
-
-
-def test_members_of_a_forecast_at_stations(exercise, run, members, tmp_path, capsys):
-    fields = small_fields()
-    place = float(fields["fuel_latitude"][3]), float(fields["fuel_longitude"][3])
-    station_file = small_stations.briefed(
-        tmp_path / "there.gpkg", [("Inside", *place), ("Outside", 40.0, -120.0)]
-    )
-    _, text, _ = firetwin(capsys, "resources", station_file, "--stations", "--ensemble", members)
-    assert "2 of 20 burn it by  10 of 20 burn it by  do not reach it by 17 Sep 02:45" in text
-    rows = {name: line for line in text.splitlines() for name in ("Inside", "Outside") if name in line}
-    assert re.search(r"16 Sep 21:45 +17 Sep 01:45 +10 of 20", rows["Inside"])
-    assert rows["Outside"].count("not simulated") == 3
-    assert "forecast: Many, 20 of 20 members, issued 16 Sep 2014 20:45 -08" in text
-    _, text, _ = firetwin(capsys, "resources", station_file, "--stations", "--ensemble", members, "--json")
-    inside, outside = (each["forecast"] for each in json.loads(text)["matches"])
-    assert [each["time"] for each in inside["burned_by"]] == [
-        "2014-09-17T05:45:00Z",
-        "2014-09-17T09:45:00Z",
-        None,
-    ]
-    assert (inside["members"], inside["not_reached"], outside["members"]) == (20, 10, 0)
-    for late, listed in (("2014-09-17T05:00Z", ["Inside"]), ("2014-09-17T06:00Z", [])):
-        options = "--ahead", "--available-at", late, "--json"
-        _, text, _ = firetwin(
-            capsys, "resources", station_file, "--stations", "--ensemble", members, *options
-        )
-        assert [each["station"]["name"] for each in json.loads(text)["matches"]] == listed
-    _, text, _ = firetwin(
-        capsys, "resources", station_file, "--stations", "--run", run, "--ensemble", members
-    )
-    assert "fire  " in text
-    assert "16 Sep 22:45  " in text, "the zone of the run"
 
 
 def test_the_head_is_where_the_fire_is_then(exercise, run, capsys):

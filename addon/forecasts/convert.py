@@ -1,0 +1,80 @@
+"""Converter job of ensembles: gathers runs, or reads a model's members, in a process that may crash."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+from ..errors import input_error, reading
+from ..jobs import convert, worker
+from ..progress import MessageCallback, Progress, no_message, silent
+
+
+def run(
+    paths: list[Path],
+    out: Path,
+    start: str = "",
+    at: str = "",
+    projection: str = "",
+    horizon: float = 0.0,
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+    stop: worker.Stop | None = None,
+    name: str = "",
+    zone: str = "",
+) -> Path:
+    """Convert the members of a forecast to an ensemble in the folder `out`, and return that folder.
+
+    Parameters
+    ----------
+    paths
+        A folder of run folders, a list of runs (``ensemble.toml``), or the files and folders of a model.
+    horizon
+        Length of the forecast, s; 0: from the files.
+
+    Raises
+    ------
+    InputError, Error, UsageError, StoppedError
+        As `jobs.convert.run`.
+    """
+    from ..run.models import write
+    from ..run.models.model import Options
+
+    for path in paths:
+        if not path.exists():
+            raise input_error(path, "there is no such file or folder; check the path")
+    Options.of(start, at, projection, 0.0, [], name, zone)
+    write.check(out)
+    options = [start, at, projection, horizon, name, zone]
+    work = partial(in_process, [path.absolute() for path in paths], out.absolute(), options)
+    convert.work_apart(work, paths[0], progress, tell, stop)
+    return out
+
+
+def in_process(
+    files: list[Path],
+    out: Path,
+    options: list,
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+) -> None:
+    """Worker side: gather runs, or select the reader, read and write."""
+    from ..run.models.model import Options
+    from .ensemble import gather, member_set, readers
+
+    start, at, projection, horizon, name, zone = options
+    with reading(files[0]):
+        if len(files) == 1 and gather.sniff(files[0]):
+            made, notes = gather.convert(files[0], out, horizon), []
+        else:
+            said = Options.of(start, at, projection, 0.0, [], name, zone)
+            found = readers.read(files, said, horizon)
+            made, notes = member_set.save(found, out, files[0]), found.notes
+    total, issued = len(made.members) + len(made.left_out), ""
+    if made.issued:
+        issued = f" after {made.issued:%Y-%m-%d %H:%M} UTC"
+    tell(f"{len(made.members)} of {total} members, up to {made.horizon / 3600.0:.4g} h{issued}")
+    for each in made.left_out:
+        tell(f"left out: {each.name}: {each.reason}")
+    for text in notes:
+        tell(text)
