@@ -1,7 +1,7 @@
 """Temperature of solved smoke as OpenVDB volumes, on cubic voxels as wide as the cells of the flow.
 
 The cells of a flow follow the terrain; its levels flatten towards the top of the box. The temperature is the
-standard atmosphere's plus the flow's excess temperature, as in volumes of puffs (cpp/volume/grids.hpp).
+standard atmosphere's plus the flow's excess temperature, as in volumes of a model's smoke.
 """
 
 from __future__ import annotations

@@ -40,7 +40,7 @@ _GRIDS = {
     "glow": "light of the flames on the smoke, 1 among flames of 1 GW",
     "hidden": "1 for smoke that other smoke hides from all cameras",
     "shade": "concentration of the smoke without detail, for rays of light",
-    "size": "radius of the puffs",
+    "size": "length below which only noise adds detail",
     "sky": "skylight that reaches the smoke, 0..1",
     "sun": "fourth root of the sunlight that reaches the smoke, 0..1",
     "temperature": "temperature; for a solved flow in the files temperature_*.vdb, 0 outside of warm air",

@@ -24,7 +24,7 @@ end = 2014-09-17T16:24:00-07:00
 frames = 2
 
 [smoke]
-method = "puffs"
+method = "preview"
 
 [[cameras]]
 name = "drone"

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from firetwin_core import sensor, volume
+from firetwin_core.flames import FlameVolume
 from numpy.typing import NDArray
 
 from ..blender import nodes
@@ -65,8 +66,8 @@ class Eye:
         channels: Channels,
         number: int,
         smoke: Sequence[volume.Bricks],
-        flames: volume.FlameVolume | None = None,
-        outline: volume.FlameVolume | None = None,
+        flames: FlameVolume | None = None,
+        outline: FlameVolume | None = None,
         flame_distance: Array | None = None,
         parts: bool = False,
     ) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from firetwin_core import volume
+from firetwin_core.flames import FlameVolume
 from numpy.typing import NDArray
 
 from ..geometry.grids import dilate
@@ -17,7 +18,7 @@ Array = NDArray[np.float32]
 
 
 def measure(
-    flames: volume.FlameVolume, rays: Rays, light: volume.Illumination, farthest: float, white: float
+    flames: FlameVolume, rays: Rays, light: volume.Illumination, farthest: float, white: float
 ) -> Array:
     """Return the distance (h, w) within which half of the flames' light is emitted, m; 0 without flames.
 

@@ -16,6 +16,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 from firetwin_core import sensor, volume
+from firetwin_core.flames import FlameVolume
 from numpy.typing import NDArray
 
 from ..blender import compat, nodes, owned
@@ -127,7 +128,7 @@ class IntegratedRenderer:
             depth = [eye.channels["Depth"][..., 0] for eye in eyes]
             self._write(part, pictures["depth"], np.concatenate(depth))
 
-    def _flames(self, frame: int) -> tuple[volume.FlameVolume | None, volume.FlameVolume | None]:
+    def _flames(self, frame: int) -> tuple[FlameVolume | None, FlameVolume | None]:
         """Return the flames of a frame that are drawn as a volume, and the same with detail for outlines."""
         (view,) = self.shot.paths
         with self.cost.part(frame_cost.MARCH):
@@ -137,7 +138,7 @@ class IntegratedRenderer:
             flames = build()
             return flames, flames if view.width <= _OUTLINE else build(columns=_OUTLINE)
 
-    def _measure_flames(self, flames: volume.FlameVolume | None) -> Array | None:
+    def _measure_flames(self, flames: FlameVolume | None) -> Array | None:
         """Show surfaces the distance of flames in each cell, and return it; None if they cannot read it."""
         render, camera = self.scene.render, self.stage.evaluated(self.scene.camera)
         distance = None

@@ -25,7 +25,7 @@ from .fire import firebrand_material
 from .forest import build as forest
 from .forest import library, models
 from .smoke import flow_material
-from .smoke import material as puff_material
+from .smoke import material as model_material
 
 HEIGHTS = {
     **{"large": 35.0, "medium": 22.0, "small": 8.0, "oak": 14.0},
@@ -62,7 +62,7 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
     forest.node_group(shot, stage, "Firetwin Trees", trees)
     fire.node_group(shot, stage, fire.build_cards(shot, stage))
     firebrand_material.build(shot, stage)
-    for look, name in ((puff_material, "Puffs"), (flow_material, "Flow")):
+    for look, name in ((model_material, "Model"), (flow_material, "Flow")):
         material = look.build(shot, stage)
         material.name = f"Firetwin Smoke {name}"
         for node in material.node_tree.nodes:

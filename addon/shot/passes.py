@@ -305,20 +305,12 @@ def refused(each: Pass, camera: CameraSettings, settings: Any) -> str:
     if is_marched(each):
         if eevee:
             return f"{cannot} with EEVEE, which renders smoke and surfaces together; render it with Cycles"
-        if changed := _unmarched(settings.smoke):
+        if settings.smoke.enabled and settings.smoke.draw != "integrated":
+            changed = f'smoke.draw = "{settings.smoke.draw}"'
             return f"{cannot} with {changed}, because Cycles then renders smoke too; remove the key"
     if each.single_view and camera.rig.around:
         return f'camera "{camera.name}" is a panorama and cannot record {each.name}'
     return ""
-
-
-def _unmarched(smoke: Any) -> str:
-    """Return the first key of [smoke], with its value, by which smoke is not ray-marched; empty if it is."""
-    if not smoke.enabled:
-        return ""
-    wanted = {"draw": "integrated", "method": "flow", "lighting": "solved"}
-    values = ((name, getattr(smoke, name)) for name in wanted)
-    return next((f'smoke.{name} = "{value}"' for name, value in values if value != wanted[name]), "")
 
 
 def of_camera(settings: Any, camera: CameraSettings) -> tuple[Pass, ...]:

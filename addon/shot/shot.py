@@ -34,7 +34,6 @@ from .frames import Frames
 from .runs import scene_runs
 from .schema.frame_list import FrameList
 from .sections.camera import CameraSettings
-from .sections.smoke import SMOKE_METHODS
 from .settings import Camera, Settings, tile_heights_file
 from .terrain import elevation
 from .terrain.elevation import Elevation
@@ -152,19 +151,14 @@ class Shot:
 
     @property
     def spin_up(self) -> float:
-        """Spin-up: time that the smoke flow is solved before the first frame, s."""
-        return self._history("spin_up")
-
-    def _history(self, key: str) -> float:
-        """Time before the first frame, s, of a key of [smoke]; its default scales with the fire's size."""
-        value = getattr(self.settings.smoke, key)
+        """Time that the smoke flow is solved before the first frame, s; its default scales with the fire."""
+        value = self.settings.smoke.spin_up
         return self.scale.time(_SPIN_UP) if value is None else value
 
     @cached_property
     def fire(self) -> Fire:
         """The fire from the first frame to the last, with the history that smoke needs."""
-        since = self._history(SMOKE_METHODS[self.settings.smoke.method].history)
-        before = max(since + burning.BURN_TIME, _BURNING_BEFORE)
+        before = max(self.spin_up + burning.BURN_TIME, _BURNING_BEFORE)
         span = self.frames.first, self.frames.last, before
         return Fire(self.run, *span, self.relief, self.arrival, self.scale.length(DETAIL))
 
@@ -320,8 +314,7 @@ class Shot:
         """Warnings about the scene file, the run's fire, its smoke, and the camera paths."""
         smoke = self.settings.smoke
         cell = max(burning.fuel_cell(self.run))
-        solved = smoke.enabled and SMOKE_METHODS[smoke.method].solved
-        coarse = smoke_scale.warnings(self.scale, cell) if solved else []
+        coarse = smoke_scale.warnings(self.scale, cell) if smoke.enabled else []
         return [
             *self.settings.notes,
             *run_warnings.of_fire(self.run),

@@ -9,7 +9,6 @@ from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ..shot.terrain import noise
-from . import stability
 
 WIND = 0.75  # factor on the run's near-surface wind, which includes the fire's own inflow (assumed)
 _SHEAR = 0.1  # exponent of the wind power law, over rough ground by day
@@ -29,6 +28,7 @@ _HEIGHTS = np.array([0.0, 10, 30, 100, 300, 600, 1000, 1800, 2600, 3300, 4000, 4
 # m, kg/kg: water vapour at a fifth of saturation at the ground, constant in the mixed layer, less above
 # (assumed)
 _WATER = [0.0, 3300.0, 4500.0, 9000.0], [5.2e-3, 5.2e-3, 1.5e-3, 0.1e-3]
+_TURN = -10.0, 2.0  # degrees, solar elevations between which night turns into day
 _MAX_HUMIDITY = 0.8  # upper limit of relative humidity: the sky is clear (assumed)
 
 Array = NDArray[np.float64]
@@ -46,7 +46,7 @@ class Air:
 
 def air(sun: float, ground: float) -> Air:
     """Estimate the atmosphere for the elevation of the sun (degrees) and the mean ground height (m)."""
-    day = float(noise.smoothstep(*stability.TURN, sun))
+    day = float(noise.smoothstep(*_TURN, sun))
     low = np.exp(np.log(_NIGHT) + day * (np.log(_DAY) - np.log(_NIGHT)))
     gradient = np.where(
         _HEIGHTS[1:] <= _INVERSION, low, np.where(_HEIGHTS[1:] <= _MIXED, _DAY + (1 - day) * 2.7e-3, _ALOFT)

@@ -23,7 +23,7 @@ from ..shot.settings import code_fingerprint
 from ..shot.shot import Shot
 from . import cache, shared_frames, sources
 from .sources import Source
-from .sources._single import SHOWN
+from .sources.model import SHOWN
 from .view import resolution, shot_frames
 
 __all__ = [
@@ -40,7 +40,7 @@ __all__ = [
 
 _FRAME_MEMORY = 2 << 30  # bytes of memory per frame; measured: 0.5 GB, and 1.9 GB for a flow
 _FRAME_PROCESSORS = 4  # per frame; on four, two frames in parallel took as long and twice the memory
-_NOT_IN_FILES = ("enabled", "extinction", "voxel_size", "draw")
+_NOT_IN_FILES = ("enabled", "voxel_size", "draw")
 """Keys of [smoke] that affect only rendering; voxel sizes are hashed separately."""
 
 
@@ -287,6 +287,7 @@ def _cache_key(shot: Shot, progress: Progress) -> str:
         for camera in inputs.get("cameras", ()):
             del camera["frames"]  # normalised form
         inputs["sight"] = [height / width, [shot.frames_of(camera) for camera in settings.cameras]]
+        inputs["culled"] = settings.render.cull
         inputs["leaders"] = [repr(leader) for leader in leaders]
     return content.fingerprint(
         {

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from ..progress import duration, size
 from ..shot.fire.smoke_scale import FINER
-from . import domains
 from .domains import Domain
 from .flow import Flow
 
@@ -36,7 +35,7 @@ class Cost:
         return (
             f"the air over {duration(self.time)} of the fire is solved once in cells of {self.cells}, which "
             f"takes about {duration(self.seconds)} on 2 cores and {size(self.bytes)} in {self.folder}; "
-            'smoke.method = "puffs" needs none of it'
+            'smoke.method = "preview" takes seconds'
         )
 
 
@@ -52,7 +51,7 @@ def estimate(flow: Flow) -> Cost | None:
     for domain in flow.domains:
         begin, step = flow.begin, shot.scale.step
         if domain is not flow.domains[0]:
-            begin, step = max(begin, frames.first - shot.scale.time(domains.LEAD)), step / FINER
+            begin, step = max(begin, frames.first - shot.scale.time(flow.lead)), step / FINER
         film = (frames.count - 1) * max(1, math.ceil(frames.step / step))  # a step in each frame at least
         work += domain.cells * (math.ceil((frames.first - begin) / step) + film)
     room = _KEPT * frames.count * sum(domain_left.cells for domain_left in missing)

@@ -173,6 +173,17 @@ def nest_box(shot: Shot, around: Box) -> Box | None:
     return Box(levels, (_NEST, _NEST), fine, (float(corner[0]), float(corner[1])))
 
 
+def on_ground(shot: Shot, boxes: list[Box], folder: FilePath = FilePath()) -> list[Domain]:
+    """Return the domains of a box and of its nest over smoothed ground, with their snapshots in a folder."""
+    if not boxes:
+        return []
+    grounds = [smooth_ground(shot, box, 8 if number else 2) for number, box in enumerate(boxes)]
+    mean, top = float(grounds[0].mean()), boxes[0].levels[-1]
+    return [
+        Domain(box, ground, mean, top, folder, shot.scale) for box, ground in zip(boxes, grounds, strict=True)
+    ]
+
+
 def smooth_ground(shot: Shot, box: Box, smoothings: int) -> Array:
     """Compute smoothed ground heights in a box's cells (rows, columns), m."""
     x, y = box.middles()

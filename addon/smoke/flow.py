@@ -16,7 +16,9 @@ import contextlib
 import functools
 import threading
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
+from typing import ClassVar
 
 from .. import leases
 from ..errors import writing
@@ -30,7 +32,7 @@ from .domains import Box, Domain
 from .integrator import Integrator, IntegratorStoppedError
 
 _MADE_BY = [
-    f"smoke/{name}.py" for name in ("atmosphere", "domains", "flow", "integrator", "snapshots", "stability")
+    f"smoke/{name}.py" for name in ("atmosphere", "coarse", "domains", "flow", "integrator", "snapshots")
 ]
 
 _LOOK = 0.1  # s between checks of another process's progress
@@ -38,6 +40,9 @@ _LOOK = 0.1  # s between checks of another process's progress
 
 class Flow:
     """Smoke flow of a shot. Several threads may request its snapshots."""
+
+    lead: ClassVar[float] = domains.LEAD
+    """Spin-up of the nest before the first frame, s, on cells of `smoke_scale.REFERENCE`."""
 
     def __init__(self, shot: Shot, progress: Progress = silent) -> None:
         self.shot = shot
@@ -54,20 +59,21 @@ class Flow:
         return self.shot.frames.first - self.shot.spin_up
 
     @functools.cached_property
-    def domains(self) -> list[Domain]:
-        """The domain around the fire, and the nested domain if there is one; empty without fire."""
+    def boxes(self) -> list[Box]:
+        """Boxes of the domain around the fire, and of the nest if there is one; none without fire."""
         box = domains.outer_box(self.shot)
         if box is None:
             return []
         fine = domains.nest_box(self.shot, box)
-        ground = domains.smooth_ground(self.shot, box, 2)
-        scale = self.shot.scale
-        mean, top = float(ground.mean()), box.levels[-1]
-        result = [Domain(box, ground, mean, top, self._folder([box]), scale)]
-        if fine is not None:
-            ground = domains.smooth_ground(self.shot, fine, 8)
-            result.append(Domain(fine, ground, mean, top, self._folder([box, fine]), scale))
-        return result
+        return [box] if fine is None else [box, fine]
+
+    @functools.cached_property
+    def domains(self) -> list[Domain]:
+        """The domain around the fire, and the nested domain if there is one; empty without fire."""
+        return [
+            replace(each, folder=self._folder(self.boxes[: number + 1]))
+            for number, each in enumerate(domains.on_ground(self.shot, self.boxes))
+        ]
 
     def key(self) -> list[str]:
         """Folder names of its snapshots."""
@@ -109,7 +115,7 @@ class Flow:
             with leases.lock(folder / "state.lock", lambda: self.has(frame), wait) as mine:
                 if mine and not self.has(frame):
                     if self._integrator is None or self._integrator.frame >= frame:
-                        self._integrator = Integrator(self.shot, self.domains, self.stop, frame)
+                        self._integrator = Integrator(self.shot, self.domains, self.stop, frame, self.lead)
                     self._integrator.solve(frame, progress, max(frame, last))
 
     def has(self, frame: int) -> bool:

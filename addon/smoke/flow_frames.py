@@ -91,6 +91,8 @@ class Layer:
     fine: bool
     close: bool = False
     """Draw only the part within a frame's close-up window."""
+    ground_step: float = 0.0
+    """Spacing of samples of the true ground, m; 0: by the scale."""
 
     def file(self, folder: Path, frame: int) -> Path:
         """Volume file of a frame."""
@@ -254,7 +256,7 @@ class Painter:
         self, snapshot: snapshots.Snapshot, time: float, origin: tuple[float, ...], shape: tuple[int, ...]
     ) -> Array | None:
         """Return the logarithm of a factor (nx, ny) on smoke at the ground, see `windward`."""
-        if not self.layer.fine or self.shot.settings.fire.emitters != "front":
+        if not self.layer.fine:
             return None
         box, voxel = self.layer.domain.box, self.layer.voxel
         x, y = (low + np.arange(count) * voxel for low, count in zip(origin, shape, strict=False))
@@ -307,7 +309,7 @@ class Painter:
     @property
     def _surface_step(self) -> float:
         """Return the spacing of samples of the true ground, m."""
-        return self.scale.length(_SURFACE_STEP)
+        return self.layer.ground_step or self.scale.length(_SURFACE_STEP)
 
     @functools.cached_property
     def _surface(self) -> Array:
@@ -377,7 +379,7 @@ class Painter:
             blur=blur,
             opacity=mix.opacity,
             condensation_height=shot.settings.smoke.cloud_base,
-            max_extinction=shot.settings.smoke.extinction or max_extinction(scale),
+            max_extinction=max_extinction(scale),
             ages=ages,
             seed=shot.settings.seed,
         )

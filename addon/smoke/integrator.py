@@ -52,13 +52,17 @@ class Integrator:
         Event that stops solving.
     frame
         Checkpoints later than this frame are ignored.
+    lead
+        Spin-up of the nested domain before the first frame, s, on cells of `smoke_scale.REFERENCE`.
     """
 
-    def __init__(self, shot: Shot, nested: list[Domain], stop: Event, frame: int) -> None:
+    def __init__(
+        self, shot: Shot, nested: list[Domain], stop: Event, frame: int, lead: float = domains.LEAD
+    ) -> None:
         self.shot, self.domains, self.stop = shot, nested, stop
         self.begin = shot.frames.first - shot.spin_up
         self.scale = shot.scale
-        self.lead, self.slots = _nested_lead(shot), shot.scale.time(_SOURCE_STEP)
+        self.lead, self.slots = shot.scale.time(lead), shot.scale.time(_SOURCE_STEP)
         self.step, self.frame = 0, 0
         self.steps, self.frame_of = _schedule(shot)
         self.ends = np.concatenate([[0.0], np.cumsum(self.steps)])  # s since the beginning
@@ -252,11 +256,6 @@ class Integrator:
             gust_time=self.scale.time(time),
             seed=self.shot.settings.seed,
         )
-
-
-def _nested_lead(shot: Shot) -> float:
-    """Return the spin-up time of the nested domain before the first frame, s."""
-    return shot.scale.time(domains.LEAD)
 
 
 def _count(dt: float, scale: Scale) -> int:

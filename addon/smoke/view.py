@@ -36,16 +36,15 @@ class Resolution:
 
 
 def resolution(shot: Shot) -> Resolution:
-    """Return the voxel size and extinction of the scene file; defaults depend on the cameras."""
-    smoke = shot.settings.smoke
-    voxel = smoke.voxel_size or _voxel(shot)
+    """Return the resolution of a model's smoke; without `smoke.voxel_size` it depends on the cameras."""
+    voxel = shot.settings.smoke.voxel_size or _voxel(shot)
     thick = np.array(_EXTINCTION) / shot.scale.ratio
-    extinction = smoke.extinction or float(np.clip(STEP_DEPTH / (1.2 * voxel), *thick))
+    extinction = float(np.clip(STEP_DEPTH / (1.2 * voxel), *thick))
     return Resolution(voxel, STEP_DEPTH / extinction, extinction)
 
 
 def _voxel(shot: Shot) -> float:
-    """Return the voxel size of puffs (m), which increases with distance and with the fire's size."""
+    """Return the voxel size (m), which increases with distance and with the fire's size."""
     least, most = (shot.scale.length(limit) for limit in _VOXELS)
     return float(np.clip(70.0 * (shot.fire_distance / 4000.0) ** 0.4, least, most))
 

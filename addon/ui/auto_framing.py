@@ -60,7 +60,7 @@ def apply_framing(panel: bpy.types.PropertyGroup, fits: dict[str, Any]) -> None:
         if not here and not panel.scene_file:
             from ..smoke import sources
 
-            panel.smoke.method = sources.preview()  # a slower method is announced first
+            panel.smoke.method = sources.find_preview()  # a slower method is announced first
         camera_list.fill(panel, camera_list.from_text(fits["cameras"]))
     panel.usual = json.dumps(fits | {"placed_for": [fits["time"][name] for name in _WINDOW]})
 

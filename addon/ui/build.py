@@ -82,7 +82,7 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
 
 
 class FIRETWIN_OT_solve(Working, bpy.types.Operator):
-    """Solve the flow of air and smoke once, and replace the puff preview.
+    """Solve the flow of air and smoke once, and replace the preview.
 
     Solved snapshots are cached and reused; a stopped solution resumes from them
     """

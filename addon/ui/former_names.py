@@ -15,7 +15,7 @@ import bpy
 
 from .. import progress
 from ..blender import compat, owned
-from ..shot.schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, current
+from ..shot.schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, REMOVED, current
 
 
 @bpy.app.handlers.persistent
@@ -68,10 +68,15 @@ def update_presets() -> None:
 
 
 def _with_present_names(preset: str) -> str:
-    """Replace former names in the text of a preset, lines such as ``firetwin.tiles.error = 2.0``."""
+    """Replace former names in the text of a preset, lines such as ``firetwin.tiles.error = 2.0``.
+
+    Lines of removed keys become empty.
+    """
 
     def line(found: re.Match[str]) -> str:
         section, key = map(str, current((found[1], found[2])))
+        if (section, key) in REMOVED:
+            return ""
         value = FORMER_VALUES.get((section, key), {}).get(found[3].strip("'\""))
         return f"firetwin.{section}.{key} = {repr(value) if value else found[3]}"
 

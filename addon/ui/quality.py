@@ -26,8 +26,8 @@ _MOVED = (
 )
 _STEPS: dict[str, tuple[str, tuple[Any, ...]]] = {
     "preview": (
-        "Preview in a minute: coarse terrain, fewer trees, smoke as puffs, small pictures",
-        (1500.0, 1.5, 64.0, 40_000, 5000, 6000.0, 500, "puffs", 12, (480, 270), 2),
+        "Preview in a minute: coarse terrain, fewer trees, smoke on wide cells, small pictures",
+        (1500.0, 1.5, 64.0, 40_000, 5000, 6000.0, 500, "preview", 12, (480, 270), 2),
     ),
     "film": (
         "Films and daily work: solved smoke, pictures of 1280 x 720",

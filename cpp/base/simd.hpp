@@ -16,6 +16,10 @@ template <class T, std::size_t lanes> struct SimdOf {
 /// depends on the target.
 template <class T, std::size_t lanes> using Simd = typename SimdOf<T, lanes>::Type;
 
+constexpr std::size_t lane_count = 8;
+using Lanes = Simd<float, lane_count>;
+using WideLanes = Simd<double, 4>;
+
 template <class T, class Vector>
 __attribute__((always_inline)) inline void load(const T* from, Vector& to) {
   std::memcpy(&to, from, sizeof to);

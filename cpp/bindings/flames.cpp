@@ -1,4 +1,4 @@
-#include "volume/flames.hpp"
+#include "flames/flames.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "volume/flame_bake.hpp"
@@ -15,12 +15,12 @@ namespace firetwin::bindings {
 namespace py = pybind11;
 namespace {
 
-using volume::FlameLight;
-using volume::FlameShape;
-using volume::FlameSquare;
-using volume::FlameView;
-using volume::FlameVolume;
-using volume::Spindle;
+using flames::FlameLight;
+using flames::FlameShape;
+using flames::FlameSquare;
+using flames::FlameView;
+using flames::FlameVolume;
+using flames::Spindle;
 
 using SquareArrays = std::tuple<py::object, py::object, std::array<double, 2>, double>;
 

@@ -1,7 +1,7 @@
 #include "volume/march.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "volume/flames.hpp"
+#include "flames/flames.hpp"
 #include "volume/infrared.hpp"
 #include "volume/optical_depth.hpp"
 
@@ -13,10 +13,10 @@ namespace firetwin::bindings {
 namespace py = pybind11;
 namespace {
 
+using flames::FlameVolume;
 using volume::AirTemperature;
 using volume::Bricks;
 using volume::Colour;
-using volume::FlameVolume;
 using volume::Illumination;
 
 std::shared_ptr<Bricks> make_bricks(const py::object& density, const py::object& fresh,

@@ -57,7 +57,7 @@ PYBIND11_MODULE(firetwin_core, whole) {
   bindings::init_terrain(module.def_submodule("terrain"));
   auto volume = module.def_submodule("volume");
   bindings::init_volume(volume);
-  bindings::init_flames(volume);
+  bindings::init_flames(module.def_submodule("flames"));
   bindings::init_march(volume);
   bindings::init_smoke(volume);
   bindings::init_sensor(module.def_submodule("sensor"));

@@ -5,8 +5,6 @@
 #include "placed.hpp"
 #include "volume/dense.hpp"
 #include "volume/levels.hpp"
-#include "volume/puffs.hpp"
-#include "volume/smoke.hpp"
 #include "volume/smoke_occlusion.hpp"
 
 #include <pybind11/stl.h>
@@ -22,27 +20,12 @@ namespace py = pybind11;
 namespace {
 
 using lod::ViewSet;
-using volume::Puffs;
-using volume::PuffSettings;
 using volume::VdbSummary;
 using Path = std::filesystem::path;
 
 constexpr py::ssize_t longest_side = 1 << 30; // voxels, far below overflow of 32-bit integers
 
-Puffs puffs(double time, const py::object& arrival_object, const py::object& fuel_object,
-            const py::object& position_object, const py::object& wind_object, double cell_area,
-            const PuffSettings& settings) {
-  const auto arrival = to_array<double>(arrival_object, "arrival", {-1});
-  const py::ssize_t cells = arrival.size();
-  const auto fuel = to_array<double>(fuel_object, "fuel", {cells});
-  const auto position = to_array<double>(position_object, "position", {cells, 3});
-  const auto wind = spread<double>(wind_object, "wind", {cells, 2});
-  const volume::Burn burn{view(arrival), view(fuel), view(position), view(wind), cell_area};
-  const py::gil_scoped_release release;
-  return volume::puffs(time, burn, settings);
-}
-
-/// Arguments that puffs and model smoke share; owns the arrays of the flames.
+/// Request of a model's grids; owns the arrays of the flames.
 class GridRequestArrays {
 public:
   GridRequestArrays(const py::object& flame_position, const py::object& flame_power,
@@ -71,16 +54,6 @@ private:
   Array<double> position_;
   Array<double> power_;
 };
-
-VdbSummary write_smoke(const Path& path, const Puffs& smoke, double voxel_size,
-                       const py::object& flame_position, const py::object& flame_power,
-                       const std::optional<io::Metadata>& metadata,
-                       const std::optional<std::vector<std::string>>& grids,
-                       const ViewSet* view_set) {
-  const GridRequestArrays arrays(flame_position, flame_power, grids, view_set, metadata);
-  const py::gil_scoped_release release;
-  return volume::write_smoke(path, smoke, voxel_size, arrays.wanted);
-}
 
 /// Smoke on levels; owns its arrays.
 struct LevelArrays {
@@ -179,25 +152,7 @@ py::tuple occluded_smoke(const py::object& extinction, double voxel_size,
   return py::make_tuple(found, placed(std::move(hides)));
 }
 
-template <auto member> auto puffs_column(const py::object& self) {
-  return lend_column(self.cast<const Puffs&>().*member, self);
-}
-
 void bind_types(Module& module) {
-  Class<Puffs>(module, "Puffs")
-      .def_property_readonly("position",
-                             [](const py::object& self) {
-                               const auto& p = self.cast<const Puffs&>();
-                               return lend<float>(p.position, {length(p.size()), 3}, self);
-                             })
-      .def_property_readonly("radius", &puffs_column<&Puffs::radius>)
-      .def_property_readonly("density", &puffs_column<&Puffs::density>)
-      .def_property_readonly("age", &puffs_column<&Puffs::age>)
-      .def_property_readonly("mass", &puffs_column<&Puffs::mass>)
-      .def_property_readonly("identity", &puffs_column<&Puffs::identity>)
-      .def_readonly("emitted", &Puffs::emitted)
-      .def_readonly("left", &Puffs::left)
-      .def("__len__", &Puffs::size);
   Class<VdbSummary>(module, "VdbSummary")
       .def_readonly("active_voxels", &VdbSummary::active_voxels)
       .def_readonly("voxels", &VdbSummary::voxels)
@@ -214,30 +169,6 @@ void bind_types(Module& module) {
 void init_volume(Module module) {
   bind_types(module);
   module.attr("FRESH_SMOKE") = volume::fresh_smoke;
-  const PuffSettings defaults;
-  module.def(
-      "puffs",
-      [](double time, const py::object& arrival, const py::object& fuel, const py::object& position,
-         const py::object& wind, double cell_area, double interval, double max_age,
-         double burn_time, double stability, std::uint64_t seed, double smoke_fraction,
-         double heat_of_combustion, double block, double merge_radius, double smallest,
-         double turbulence) {
-        return puffs(time, arrival, fuel, position, wind, cell_area,
-                     {interval, max_age, burn_time, stability, block, merge_radius, smallest,
-                      turbulence, smoke_fraction, heat_of_combustion, seed});
-      },
-      py::arg("time"), py::arg("arrival"), py::arg("fuel"), py::arg("position"), py::arg("wind"),
-      py::arg("cell_area"), py::arg("interval") = defaults.interval,
-      py::arg("max_age") = defaults.max_age, py::arg("burn_time") = defaults.burn_time,
-      py::arg("stability") = defaults.stability, py::arg("seed") = defaults.seed,
-      py::arg("smoke_fraction") = defaults.smoke_fraction,
-      py::arg("heat_of_combustion") = defaults.heat_of_combustion,
-      py::arg("block") = defaults.block, py::arg("merge_radius") = defaults.merge_radius,
-      py::arg("smallest") = defaults.smallest, py::arg("turbulence") = defaults.turbulence);
-  module.def("write_smoke", &write_smoke, py::arg("path"), py::arg("puffs"), py::arg("voxel_size"),
-             py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
-             py::arg("metadata") = py::none(), py::arg("grids") = py::none(),
-             py::arg("views") = py::none());
   module.def("write_levels", &write_levels, py::arg("path"), py::arg("frame"), py::arg("latitude"),
              py::arg("longitude"), py::arg("ground"), py::arg("height"), py::arg("smoke"),
              py::arg("voxel_size"), py::arg("temperature") = py::none(),

@@ -14,6 +14,12 @@
 namespace firetwin::volume {
 namespace {
 
+using flames::FlameField;
+using flames::FlameLight;
+using flames::FlameSamples;
+using flames::FlameTiles;
+using flames::FlameVolume;
+
 constexpr int leaf_edge = static_cast<int>(leaf_side);
 static_assert(lane_count == leaf_side);
 constexpr float least_flame = 1.0e-3F; // 1/m, extinction below which a voxel is not active

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "flames/flames.hpp"
 #include "io/metadata.hpp"
-#include "volume/flames.hpp"
 #include "volume/vdb_summary.hpp"
 
 #include <cstddef>
@@ -16,7 +16,7 @@ constexpr std::size_t flame_values = 3; ///< of `sample_flames` at a point
 /// and temperature, K, which is 0 without flames. Eddies below the size `fine`, m, are left out.
 /// Cooled soot over the flames is not included.
 /// @throws std::invalid_argument
-void sample_flames(const FlameVolume& flames, std::span<const double> points, float fine,
+void sample_flames(const flames::FlameVolume& flames, std::span<const double> points, float fine,
                    std::span<float> out);
 
 /// Writes flames up to the distance at which they fade out as grids of a VDB file:
@@ -29,7 +29,7 @@ void sample_flames(const FlameVolume& flames, std::span<const double> points, fl
 /// @throws std::invalid_argument if the voxel size is out of range
 /// @throws Error if there are more leaves than memory could hold
 /// @throws InputError if the file cannot be written
-VdbSummary write_flames(const std::filesystem::path& path, const FlameVolume& flames,
+VdbSummary write_flames(const std::filesystem::path& path, const flames::FlameVolume& flames,
                         double voxel_size, const io::Metadata& metadata);
 
 } // namespace firetwin::volume

@@ -75,7 +75,7 @@ void add_flame(const double* position, double power, double voxel_size, FlameLea
   }
 }
 
-FogGrid flame_grid(const Flames& flames, double voxel_size) {
+FogGrid flame_grid(const FlameLights& flames, double voxel_size) {
   FlameLeaves all;
   for (std::size_t i = 0; i < flames.power.size(); ++i) {
     add_flame(&flames.position[3 * i], flames.power[i], voxel_size, all);
@@ -123,7 +123,7 @@ public:
     mass_.resize(leaves.size());
   }
 
-  FogGrid grid(const NamedGrid& named, const Flames& flames) {
+  FogGrid grid(const NamedGrid& named, const FlameLights& flames) {
     const bool is_density = named.grid == SmokeGrid::density;
     FogGrid grid{.name = named.name,
                  .units = is_density ? source_.density_units : named.units,

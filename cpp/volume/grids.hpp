@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// Smoke grids shared by puffs and by a model's own fields.
+/// Grids of a model's smoke.
 namespace firetwin::volume {
 
 /// Smoke density of dilution 1, kg/m3: 10 mg/m3, as above a crown fire.
@@ -35,10 +35,18 @@ enum class SmokeGrid { density, dilution, shade, size, temperature, glow, flame 
 /// @throws std::invalid_argument for an unknown name
 SmokeGrid smoke_grid(const std::string& name);
 
-/// Options for writing smoke grids.
+/// Options for writing smoke grids:
+/// - `density`: 0 in clear air to 1 in thick smoke;
+/// - `dilution`: smoke in units of fresh_smoke;
+/// - `shade`: `dilution` times a smoothstep of density from edge_low to edge_high: smoke with a
+///   sharp edge in one grid, for shadow rays, whose cost is the number of grid lookups;
+/// - `size`: length below which only noise adds detail, km, at most 1;
+/// - `temperature`: K;
+/// - with flames, `glow`: sum of P / 1e9 W exp(-r / 1100 m) / (1 + (r / 250 m)^2), so 1 among
+///   flames of 1 GW, and `flame`: power of the flames within 1.5 voxels, GW, at most 1.
 struct GridRequest {
   std::vector<SmokeGrid> grids; ///< empty: all; glow and flame only with flames
-  Flames flames;
+  FlameLights flames;
   const lod::ViewSet* view_set = nullptr; ///< for culling; null culls nothing
   io::Metadata metadata;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "volume/lanes.hpp"
+#include "base/simd.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -8,6 +8,11 @@
 namespace firetwin::volume {
 namespace {
 
+using flames::BandRadiance;
+using flames::FlameRay;
+using flames::FlameSlab;
+using flames::FlameVolume;
+
 constexpr float visible_smoke = 1.0e-3F; // 1/m; thinner smoke has less hot gas
 
 /// Interpolates (rows, columns) linearly at a place; constant outside.

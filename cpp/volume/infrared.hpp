@@ -1,6 +1,6 @@
 #pragma once
 
-#include "volume/flames.hpp"
+#include "flames/flames.hpp"
 #include "volume/ray.hpp"
 
 #include <array>
@@ -45,7 +45,7 @@ struct HotGases {
 ///
 /// @param flames may be null; their temperatures must be within the table of radiance
 /// @throws std::invalid_argument
-void march_infrared(Layers layers, const FlameVolume* flames, const Rays& rays,
+void march_infrared(Layers layers, const flames::FlameVolume* flames, const Rays& rays,
                     std::span<const float> distances, const AirTemperature& air,
                     const HotGases& hot, double step, std::span<float> out);
 

@@ -25,8 +25,7 @@ inline float valid_smoke(float smoke) {
   return smoke > 0.0F && smoke <= std::numeric_limits<float>::max() ? smoke : 0.0F;
 }
 
-/// Resamples a model's smoke to a regular voxel grid in the local frame, and writes the grids of
-/// write_smoke.
+/// Resamples a model's smoke to a regular voxel grid in the local frame, and writes its grids.
 ///
 /// At a voxel's latitude and longitude (exact at the corners of each 8^3 leaf, trilinear inside,
 /// with errors of centimetres), fields and level heights are bilinear, and the field is linear in
@@ -36,7 +35,7 @@ inline float valid_smoke(float smoke) {
 /// integral.
 ///
 /// A model has no smoke surface, so one is derived from concentration: `density` is a smoothstep of
-/// `dilution` from min_dilution to 0.1. `shade` follows from both as in write_smoke. `size` is the
+/// `dilution` from min_dilution to 0.1. `size` is the
 /// spacing of the model's columns, below which only noise adds detail.
 /// @throws std::invalid_argument for an invalid voxel size; Error if heights do not ascend
 VdbSummary write_levels(const std::filesystem::path& path, const geo::LocalFrame& frame,

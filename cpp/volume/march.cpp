@@ -3,8 +3,8 @@
 #include "base/clones.hpp"
 #include "base/simd.hpp"
 #include "base/smoothstep.hpp"
+#include "flames/flames.hpp"
 #include "volume/fine_detail.hpp"
-#include "volume/flames.hpp"
 #include "volume/half.hpp"
 
 #include <algorithm>
@@ -17,6 +17,10 @@
 
 namespace firetwin::volume {
 namespace {
+
+using flames::FlameRay;
+using flames::FlameSlab;
+using flames::FlameVolume;
 
 /// Transmittance at which a ray ends in flames; the remaining radiance is extrapolated.
 constexpr float opaque_flames = 0.01F;

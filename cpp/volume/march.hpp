@@ -1,6 +1,6 @@
 #pragma once
 
-#include "volume/flames.hpp"
+#include "flames/flames.hpp"
 #include "volume/ray.hpp"
 
 #include <array>
@@ -63,7 +63,7 @@ constexpr std::size_t march_values(bool parts) {
 ///
 /// @param flames may be null
 /// @throws std::invalid_argument
-void march(Layers layers, const FlameVolume* flames, const Rays& rays, const Taps& taps,
+void march(Layers layers, const flames::FlameVolume* flames, const Rays& rays, const Taps& taps,
            const Illumination& light, const MarchSettings& settings, std::span<float> out);
 
 } // namespace firetwin::volume

@@ -1,12 +1,13 @@
 #include "volume/smooth.hpp"
 
 #include "base/clones.hpp"
-#include "volume/lanes.hpp"
+#include "base/simd.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <numbers>
+#include <vector>
 
 namespace firetwin::volume {
 namespace {
@@ -16,48 +17,6 @@ constexpr float glow_fade = 1100.0F;  // m
 constexpr float glow_core = 250.0F;   // m
 constexpr double glow_power = 1.0e9;  // W
 constexpr std::size_t row_count = 9;  // of nodes, along z
-
-/// Node coordinates of a leaf along each axis, m; the fourth is a far-away dummy.
-using Ticks = std::array<std::array<double, 4>, 3>;
-
-Ticks ticks(const std::array<float, 3>& corner, float voxel_size) {
-  const double step = 0.5 * static_cast<double>(leaf_side) * static_cast<double>(voxel_size);
-  Ticks result{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      result[axis][i] = static_cast<double>(corner[axis]) + static_cast<double>(i) * step;
-    }
-  }
-  return result;
-}
-
-/// Adds the weight max(0, 1 - (r^2 inverse)^2) of one puff at all nodes.
-struct Puff {
-  const double* position;
-  double inverse;
-  double weight;
-};
-
-FIRETWIN_CLONES("avx2")
-void add_puffs(const Puff* puffs, std::size_t count, const Ticks& at, Nodes& sum) {
-  std::array<WideLanes, row_count> rows{};
-  WideLanes up;
-  load(at[2].data(), up);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Puff& puff = puffs[i];
-    const WideLanes dz = up - puff.position[2];
-    const WideLanes dz2 = dz * dz;
-    for (std::size_t row = 0; row < row_count; ++row) {
-      const double dx = at[0][row / 3] - puff.position[0];
-      const double dy = at[1][row % 3] - puff.position[1];
-      const WideLanes part2 = (dz2 + (dx * dx + dy * dy)) * puff.inverse;
-      const WideLanes rest = 1.0 - part2 * part2;
-      const WideLanes none{};
-      rows[row] += (rest > none ? rest : none) * puff.weight;
-    }
-  }
-  std::memcpy(sum.data(), rows.data(), sizeof rows);
-}
 
 /// Computes x -> exp(-x) for x >= 0 within 3e-7: a power of two times a polynomial of the remainder
 /// (Taylor coefficients of 2^f for |f| <= 1/2).
@@ -153,30 +112,8 @@ void interpolate_lanes(const Nodes& nodes, LeafValues& values) {
 
 } // namespace
 
-SpreadMass::SpreadMass(const Puffs& puffs, float voxel_size) : balls_(puffs.size()) {
-  for (std::size_t i = 0; i < balls_.size(); ++i) {
-    const auto reach = static_cast<double>(spread(puffs.radius[i], voxel_size));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      balls_[i].position[axis] = static_cast<double>(puffs.position[3 * i + axis]);
-    }
-    balls_[i].inverse = 1.0 / (reach * reach);
-    balls_[i].weight = puffs.mass[i] * 21.0 / (16.0 * std::numbers::pi) / (reach * reach * reach);
-  }
-}
-
-Nodes SpreadMass::at_nodes(const std::array<float, 3>& corner, float voxel_size,
-                           std::span<const std::uint32_t> balls) const {
-  std::vector<Puff> puffs(balls.size());
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const Ball& ball = balls_[balls[i]];
-    puffs[i] = {ball.position.data(), ball.inverse, ball.weight};
-  }
-  Nodes sum{};
-  add_puffs(puffs.data(), puffs.size(), ticks(corner, voxel_size), sum);
-  return sum;
-}
-
-Nodes glow_at_nodes(const std::array<float, 3>& corner, float voxel_size, const Flames& flames) {
+Nodes glow_at_nodes(const std::array<float, 3>& corner, float voxel_size,
+                    const FlameLights& flames) {
   const float side = voxel_size * static_cast<float>(leaf_side);
   std::vector<Light> near;
   for (std::size_t i = 0; i < flames.power.size(); ++i) {
@@ -199,15 +136,6 @@ Nodes glow_at_nodes(const std::array<float, 3>& corner, float voxel_size, const 
   return sum;
 }
 
-double largest(const Nodes& nodes) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    most = i % 4 < 3 ? std::max(most, nodes[i]) : most;
-  }
-  return most;
-}
-
-// Cloned functions must stay in this file.
 void interpolate(const Nodes& nodes, LeafValues& values) {
   interpolate_lanes(nodes, values);
 }

@@ -3,7 +3,7 @@
     python tests/benchmarks/farm_chunk.py SAMPLE --work DIR [--runs 3] [--frames 5] [--plot FILE.svg]
 
 SAMPLE is the run of `firetwin sample --format npy`. Tasks of the first frames of the example's drone run as
-farm engines run them, the cases in turns: puffs and flow at 160 x 90 pixels, and flow at the example's size.
+farm engines run them, the cases in turns: preview and flow at 160 x 90 pixels, flow at the example's size.
 The flow is solved before, as by a bake task. Two more cases render a film of 960 frames in 16 hours, built in
 parts of 24 and of 480 frames. Times are wall-clock seconds, medians of all runs.
 
@@ -31,7 +31,7 @@ from pathlib import Path
 EXAMPLE = Path(__file__).parents[2] / "examples/king_fire.toml"
 SMALL = {"resolution": "[160, 90]", "samples": "1"}
 CASES = {
-    "puffs, 160 x 90": {"method": '"puffs"', **SMALL},
+    "preview, 160 x 90": {"method": '"preview"', **SMALL},
     "flow, 160 x 90": SMALL,
     "flow, 640 x 360": {},
 }
@@ -39,7 +39,7 @@ LONG = {
     "start": "2014-09-17T08:00:00-07:00",
     "end": "2014-09-18T00:00:00-07:00",
     "frames": "960",
-    "method": '"puffs"',
+    "method": '"preview"',
     **SMALL,
 }
 PARTS = {f"{chunk} frames built": {**LONG, "chunk": str(chunk)} for chunk in (24, 480)}

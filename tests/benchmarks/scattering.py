@@ -1,4 +1,4 @@
-"""Light inside smoke: solved once per frame, or one bounce traced, against 32 bounces; FLIP and time.
+"""Light inside smoke, solved once per frame, against 32 bounces; FLIP and time.
 
 The smoke is a plume in the wind, solved, painted and lit as in a shot, and rendered by Cycles in a separate
 process. Pictures are compared by the mean FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator for
@@ -9,8 +9,8 @@ reference scatters forwards, as smoke does, and attenuates light by all of the s
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
-from dataclasses import replace
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -39,15 +39,8 @@ RESOLUTION, SAMPLES = (160, 90), 16
 SPACING, SHAPE, LEVELS, DEPTH, VOXEL = 80.0, (40, 64), 36, 60.0, 40.0  # m, rows and columns, levels; m
 MODEL_TIMES = 25  # of the sample; arrival times are complete
 WIND, POWER, SMOKE = 6.0, 6e9, 1.2e-9  # m/s, W, kg/J
-FORWARD = 0.6  # anisotropy of smoke, which the material's one bounce stands in for
 REFERENCE, OTHER_GRAIN = "32 bounces", "firetwin, other noise seed"
-WAYS = {  # lighting; bounces, part of the smoke that dims light, anisotropy (None: as the material has it)
-    OURS: ("solved", 1, None, None),
-    "1 bounce, reduced attenuation": ("traced", 1, None, None),
-    "1 bounce, full attenuation": ("traced", 1, 1.0, FORWARD),
-    REFERENCE: ("traced", 32, 1.0, FORWARD),
-    OTHER_GRAIN: ("solved", 1, None, None),
-}
+WAYS = {OURS: ("solved", 1), REFERENCE: ("traced", 32), OTHER_GRAIN: ("solved", 1)}  # lighting, bounces
 LIMIT = 0.15  # FLIP, of a picture half of which is smoke
 
 
@@ -148,30 +141,18 @@ def render_in_blender(
     bpy.ops.render.render()  # loads what later ones find loaded
     scene.cycles.samples = draft
     seconds = {}
-    for done, (name, (lighting, bounces, part, even)) in enumerate(WAYS.items()):
+    for done, (name, (lighting, bounces)) in enumerate(WAYS.items()):
         progress(done, len(WAYS))
-        inputs = _show(looks[lighting])
+        for smoke in bpy.data.volumes:
+            smoke.materials[0] = looks[lighting]
         scene.cycles.volume_bounces = bounces
         scene.cycles.max_bounces = max(scene.cycles.max_bounces, bounces)
-        for socket, value in (("Light Density", part), ("Anisotropy", even)):
-            if value is not None:
-                inputs[socket].default_value = value
         scene.cycles.seed = int(name == OTHER_GRAIN)
         scene.render.filepath = picture(folder, name)
         watch = Stopwatch()
         bpy.ops.render.render(write_still=True)
         seconds[name] = watch.read().seconds
     return seconds
-
-
-def _show(look: bpy.types.Material) -> bpy.types.NodeInputs:
-    """Give all smoke a copy of this material; its inputs."""
-    import bpy
-
-    look = look.copy()
-    for smoke in bpy.data.volumes:
-        smoke.materials[0] = look
-    return next(node for node in look.node_tree.nodes if node.type == "GROUP").inputs
 
 
 def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.types.Material]:
@@ -211,8 +192,7 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.typ
     light.build(shot, stage)
     camera.build(shot, stage)
     engine.apply(file, scene)
-    looks = {}
-    for lighting in ("solved", "traced"):
-        lit = replace(file, smoke=replace(file.smoke, lighting=lighting))
-        looks[lighting] = flow_material.build(Shot(lit, shot.run), stage)
-    return looks
+    sys.path.append(str(Path(__file__).parents[1] / "helpers"))
+    import traced_smoke
+
+    return {"solved": flow_material.build(shot, stage), "traced": traced_smoke.build(shot, stage)}

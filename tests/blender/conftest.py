@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from firetwin.auto_framing import chase, coarse_smoke, flank, overview
 from firetwin.shot.terrain import apron
+from firetwin.smoke import coarse
 from near_fire import *  # noqa: F403
 from panel_scene import panel_blend  # noqa: F401
 from small_scene import *  # noqa: F403
@@ -52,7 +53,8 @@ def shared_aprons(monkeypatch):
 
 @pytest.fixture(autouse=True)
 def few_candidates(monkeypatch):
-    """Auto framing tries few cameras, without smoke: tests/unit proves that it finds good ones."""
+    """Auto framing tries few cameras, without smoke, and previews are coarser: see tests/unit."""
+    monkeypatch.setattr(coarse, "COLUMNS", (600, 1200))
     monkeypatch.setattr(overview, "_BEARINGS", overview._BEARINGS[::4])
     monkeypatch.setattr(overview, "_HEIGHTS", overview._HEIGHTS[:2])
     monkeypatch.setattr(chase, "_SIDES", chase._SIDES[:2])

@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from scene_text import NO_PLANTS, PUFFS, TINY
+from scene_text import NO_PLANTS, PREVIEW, TINY
 
 SCENE = (
     """\
@@ -23,7 +23,7 @@ frames = {frames}
 shutter = 0.0
 """
     + NO_PLANTS
-    + PUFFS
+    + PREVIEW
     + TINY
     + """\
 passes = ["rgb", "depth"]
@@ -59,7 +59,7 @@ def flow_scene(path: Path, run: Path, frames: int = 24) -> Path:
     """Write the scene file of six minutes of the fire, with smoke of a flow, in parts of 12 frames."""
     text = scene(path, run, frames).read_text()
     for old, new in (
-        (PUFFS.format(smoke="true"), FLOW),
+        (PREVIEW.format(smoke="true"), FLOW),
         ("end = 2014-09-17T22:00:00Z", "end = 2014-09-17T21:06:00Z"),
         ("chunk = 2\n", "chunk = 12\n"),
     ):

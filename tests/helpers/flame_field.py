@@ -2,11 +2,11 @@
 
 import numpy as np
 from firetwin.scene.fire import flame_volume
-from firetwin_core import volume
+from firetwin_core.flames import FlameLight, FlameShape, FlameVolume
 
 
 def flames(squares, time=3.0, wind=(0.0, 0.0), pixel=0.0, spindles=None, origin=(0.0, 0.0, 0.0), **changes):
-    """Create flames of `squares` with the light of the product; `changes` are of `volume.FlameLight`."""
+    """Create flames of `squares` with the light of the product; `changes` are of `FlameLight`."""
     light = dict(
         visible=flame_volume.visible(1.0),
         extinction=flame_volume.EXTINCTION,
@@ -18,11 +18,11 @@ def flames(squares, time=3.0, wind=(0.0, 0.0), pixel=0.0, spindles=None, origin=
         infrared=flame_volume.INFRARED,
         dim=0.0,
     )
-    return volume.FlameVolume(
+    return FlameVolume(
         squares=squares,
         spindles=np.empty((0, 6)) if spindles is None else spindles,
-        shape=volume.FlameShape(wind=wind),
-        light=volume.FlameLight(**(light | changes)),
+        shape=FlameShape(wind=wind),
+        light=FlameLight(**(light | changes)),
         pixel=pixel,
         fade=(1e6, 2e6),
         origin=origin,

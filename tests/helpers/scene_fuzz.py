@@ -186,7 +186,7 @@ def scenes(draw, kind=None):
     """Strategy for a scene file: a valid one with a camera of a kind, and one or two keys changed."""
     tables = plain(kind or draw(st.sampled_from(sorted(kinds()))))
     if draw(st.booleans()):
-        method = draw(st.sampled_from(("flow", "puffs")))
+        method = draw(st.sampled_from(("flow", "preview")))
         tables["smoke"] = {"method": method, "cell_budget": 0.1, "spin_up": 60.0}
     for _ in range(draw(st.integers(1, 2))):
         try:

@@ -37,10 +37,11 @@ NO_SMOKE = """\
 enabled = false
 """
 
-PUFFS = """\
+PREVIEW = """\
 [smoke]
 enabled = {smoke}
-method = "puffs"
+method = "preview"
+spin_up = 60.0
 voxel_size = 120.0
 """
 

@@ -1,9 +1,10 @@
-"""A small scene with puffs of smoke, built as `firetwin build` does, without a worker process."""
+"""A small scene with the smoke of its run, built as `firetwin build` does, without a worker process."""
 
+import levels_run
 import pytest
 from firetwin.jobs import build, worker
 from firetwin.shot.source import ShotSource
-from scene_text import DRONE, NO_PLANTS, PUFFS, THREE_FRAMES, TINY
+from scene_text import DRONE, NO_PLANTS, THREE_FRAMES, TINY
 
 
 def here(work, progress, stop=None, tell=lambda text: None, **_):
@@ -13,8 +14,8 @@ def here(work, progress, stop=None, tell=lambda text: None, **_):
 
 def write(folder, run):
     """Write `folder`/scene.toml about a run, and scene.blend without volumes; return the messages."""
-    puffs = PUFFS.format(smoke="true") + "max_age = 1800.0\n"
-    parts = THREE_FRAMES.format(run=run), puffs, NO_PLANTS, TINY, DRONE.format()
+    levels = levels_run.write(run, folder / "levels")
+    parts = THREE_FRAMES.format(run=levels), "[smoke]\nvoxel_size = 120.0\n", NO_PLANTS, TINY, DRONE.format()
     (folder / "scene.toml").write_text("".join(parts))
     said = []
     with pytest.MonkeyPatch.context() as patch:

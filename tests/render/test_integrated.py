@@ -168,7 +168,8 @@ def test_settings_decide_how_smoke_is_drawn(near_settings, run):
 
     assert drawn()
     assert drawn(enabled=False)
-    for other in ({"draw": "volume"}, {"method": "puffs"}, {"lighting": "traced"}, {"engine": "eevee"}):
+    assert drawn(method="preview")
+    for other in ({"draw": "volume"}, {"engine": "eevee"}):
         assert not drawn(**other)
     assert integrated.MARCHED_PASSES == ("rgb", "thermal", "depth")
 

@@ -13,7 +13,7 @@ NAMES = [
     name
     for name, each in passes.known().items()
     if not passes.compares(name)
-    and not isinstance(each, passes.MarchedPass)  # this scene's smoke is puffs
+    and not isinstance(each, passes.MarchedPass)  # Cycles draws this scene's smoke
     and "forecast" not in each.aspects  # and has no ensemble
 ]
 
@@ -29,7 +29,8 @@ apron = 20000.0
 density = "paper"
 budget = 2000
 [smoke]
-method = "puffs"
+method = "preview"
+draw = "volume"
 voxel_size = 120.0
 [render]
 resolution = [64, 36]

@@ -14,8 +14,8 @@ from firetwin.smoke import bake
 
 @pytest.fixture
 def smoky(settings):
-    """The small scene with puffs of smoke."""
-    return replace(settings, smoke=SmokeSettings(method="puffs", voxel_size=120.0, max_age=1800.0))
+    """The small scene with preview smoke, which Cycles draws."""
+    return replace(settings, smoke=SmokeSettings(method="preview", draw="volume", voxel_size=120.0))
 
 
 @pytest.fixture

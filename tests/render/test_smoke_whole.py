@@ -12,7 +12,7 @@ from firetwin.scene.smoke import build as smoke
 from firetwin.shot.fire.smoke_scale import Scale
 from firetwin.shot.sections import SmokeSettings
 from firetwin.shot.shot import Shot
-from firetwin.smoke import bake
+from firetwin.smoke import bake, sources
 
 VOXEL = 40.0
 SHAPE = (96, 48, 224)
@@ -67,9 +67,8 @@ def puffy():
 def look(settings, run, stage, scene, shoot, tmp_path, monkeypatch):
     """Brightness of a view from within clear smoke: (blocks up, blocks across)."""
     monkeypatch.setattr(Shot, "scale", Scale())
-    smoky = replace(
-        settings, smoke=SmokeSettings(method="puffs", voxel_size=VOXEL), time=replace(settings.time, frames=1)
-    )
+    monkeypatch.setattr(sources, "choose", lambda *_: sources.known()["model"])
+    smoky = replace(settings, smoke=SmokeSettings(voxel_size=VOXEL), time=replace(settings.time, frames=1))
 
     count = itertools.count()
 

@@ -14,7 +14,7 @@ from pathlib import Path
 EXAMPLE = Path(__file__).parents[2] / "examples" / "king_fire.toml"
 FRAME = 24
 SETTINGS = {
-    "method": '"puffs"',
+    "method": '"preview"',
     "resolution": "[320, 180]",
     "samples": "12",
     "video": "false",

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from firetwin.render.store import Store
 from firetwin_core import sensor
-from scene_text import NO_PLANTS, PUFFS, TINY
+from scene_text import NO_PLANTS, PREVIEW, TINY
 
 FRAMES = 4
 KILLS = int(os.environ.get("FIRETWIN_KILLS", "2"))
@@ -28,7 +28,7 @@ cache = "{cache}"
 frames = {frames}
 """
     + NO_PLANTS
-    + PUFFS
+    + PREVIEW
     + TINY
     + """\
 passes = ["rgb", "depth", "normal", "thermal"]
@@ -173,14 +173,14 @@ def test_settings_of_one_camera_make_its_pictures_again(render, tmp_path):
     out = tmp_path / "out"
     render(out, smoke="true")
     before = _made(out)
-    volumes = {path: path.stat().st_mtime_ns for path in (tmp_path / "cache").glob("*/*.vdb")}
+    snapshots = {path: path.stat().st_mtime_ns for path in (tmp_path / "cache").glob("*/moment*")}
     render(out, smoke="true", height=450)
     after = _made(out)
     assert {path for path in before if path.startswith("other/")} <= {
         path for path in after if after[path] == before[path]
     }
     assert {path for path in after if path.startswith("drone/") and after[path] == before[path]} == set()
-    assert all(path.stat().st_mtime_ns == changed for path, changed in volumes.items())
+    assert all(path.stat().st_mtime_ns == changed for path, changed in snapshots.items())
     assert "nothing to render" in render(out, smoke="true", height=450)
 
 
@@ -188,7 +188,7 @@ def test_a_changed_source_of_the_smoke_makes_what_shows_smoke_again(render, pack
     out = tmp_path / "out"
     render(out, smoke="true")
     before, cache = _made(out), set((tmp_path / "cache").iterdir())
-    source = package / "firetwin" / "smoke" / "stability.py"
+    source = package / "firetwin" / "smoke" / "atmosphere.py"
     source.write_text(source.read_text() + "\nMORE = 1\n")
     render(out, smoke="true")
     again = _passes(before, _made(out))

@@ -79,7 +79,9 @@ def test_a_full_disk_is_a_message_and_what_was_there_stays(panel, blend, run, ti
     panel.output = str(blend.parent / "out")
     assert state() == before
     whole = scene_file.read(blend.with_suffix(".toml"))
-    smoky = Shot(replace(whole, cache=place / "cache", smoke=SmokeSettings(method="puffs")), run)
+    smoky = Shot(
+        replace(whole, cache=place / "cache", smoke=SmokeSettings(method="preview", spin_up=60.0)), run
+    )
     with pytest.raises(InputError, match="the disk is full"):
         bake.bake(smoky, frames=[1])
     firetwin.unregister()

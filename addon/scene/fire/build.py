@@ -32,11 +32,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Obj
     fronts.build(shot, stage, collection)
     if not shot.settings.fire.flames:
         return None
-    points = (
-        flames.cell_flames(shot)
-        if shot.settings.fire.emitters == "cells"
-        else flames.front_flames(shot, grown)
-    )
+    points = flames.front_flames(shot, grown)
     obj = owned.add(collection, "Flames", _mesh(points), _FLAMES)
     modifier = obj.modifiers.new("Firetwin Flames", "NODES")
     modifier.node_group = node_group(shot, stage, build_cards(shot, stage))

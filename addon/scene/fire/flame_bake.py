@@ -12,6 +12,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 from firetwin_core import volume
+from firetwin_core.flames import FlameVolume, write_flames
 
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
@@ -28,6 +29,8 @@ from ...smoke import cache
 from .. import flame_field, infrared
 from . import flame_volume, flames
 
+VOXEL = 0.5
+"""Edge length of a voxel, m."""
 _GRIDS = "flames", "infrared", "temperature"
 _THIN = 1.0e-3  # 1/m, extinction below which Cycles skips a voxel
 
@@ -52,11 +55,11 @@ def build(
     data.frame_start, data.frame_duration, data.frame_offset = 1, shot.frames.count, 0
     data.sequence_mode = "CLIP"
     data.render.space = "WORLD"
-    data.render.step_size = shot.settings.fire.volume_voxel
+    data.render.step_size = VOXEL
     data.render.clipping = _THIN
     data.materials.append(build_material(shot, stage))
     obj = owned.add(collection, "Flame Volume", data)
-    shift = compat.volume_shift(stage.scene.cycles, shot.settings.fire.volume_voxel)
+    shift = compat.volume_shift(stage.scene.cycles, VOXEL)
     obj.location = (shift, shift, shift)
     obj.visible_shadow = obj.visible_diffuse = obj.visible_volume_scatter = False
     obj.lightgroup = nodes.FIRE
@@ -77,16 +80,16 @@ def _write(shot: Shot, view: CameraPath, limit: float, torches: flames.Points | 
         for frame in range(1, shot.frames.count + 1):
             if not file(place, frame).exists():
                 field = flame_volume.build(shot, view, frame, torches, limit)
-                write_frame(file(place, frame), field, shot.settings.fire.volume_voxel)
+                write_frame(file(place, frame), field, VOXEL)
     return place
 
 
-def write_frame(path: Path, field: volume.FlameVolume | None, voxel: float) -> volume.VdbSummary:
+def write_frame(path: Path, field: FlameVolume | None, voxel: float) -> volume.VdbSummary:
     """Write the flames of a frame on voxels of an edge length (m); None: no flames."""
     if field is None:
         empty = np.zeros((1, 1, 1), np.float32)
         return volume.write(path, dict.fromkeys(_GRIDS, empty), voxel)
-    return volume.write_flames(path, field, voxel)
+    return write_flames(path, field, voxel)
 
 
 def _cache_key(shot: Shot) -> str:

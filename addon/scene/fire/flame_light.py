@@ -39,10 +39,9 @@ _NAME = "Firetwin Flame Light"
 
 
 def applies(shot: Shot) -> bool:
-    """Return whether near flames have lights: flames of a front, in Cycles, unless `light.lamps` is 0."""
+    """Return whether near flames have lights: in Cycles, unless `light.lamps` is 0."""
     settings = shot.settings
-    near = settings.fire.flames and settings.fire.emitters == "front"
-    return near and settings.render.engine == "cycles" and settings.light.lamps > 0
+    return settings.fire.flames and settings.render.engine == "cycles" and settings.light.lamps > 0
 
 
 def build(shot: Shot, grown: Stand | None, collection: bpy.types.Collection) -> bpy.types.Object | None:

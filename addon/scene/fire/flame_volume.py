@@ -13,7 +13,7 @@ fireline intensity. The heat account of the smoke leaves 0.3 for radiation, whic
 from __future__ import annotations
 
 import numpy as np
-from firetwin_core import volume
+from firetwin_core.flames import FlameLight, FlameShape, FlameVolume
 from numpy.typing import NDArray
 
 from ...shot.cameras.path import Path
@@ -58,7 +58,7 @@ def build(
     torches: flames.Points | None,
     limit: float | None = None,
     columns: int | None = None,
-) -> volume.FlameVolume | None:
+) -> FlameVolume | None:
     """Build the flames that a camera may see in a frame; None if there are none.
 
     Parameters
@@ -82,10 +82,10 @@ def build(
     crowns = spindles(torches, time, eye) if torches is not None else np.empty((0, 6))
     if not len(crowns) and not any(square.length.any() for square in squares):
         return None
-    return volume.FlameVolume(
+    return FlameVolume(
         squares=[(square.length, square.ground, square.corner, square.spacing) for square in squares],
         spindles=crowns,
-        shape=volume.FlameShape(wind=flame_map.carrying_wind(shot)),
+        shape=FlameShape(wind=flame_map.carrying_wind(shot)),
         light=light(shot, frame, float(eye[2])),
         pixel=2.0 * path.halves[frame - 1][0] / (columns or path.width),
         fade=[part * limit for part in flame_map.FADE],
@@ -94,12 +94,12 @@ def build(
     )
 
 
-def light(shot: Shot, frame: int, height: float) -> volume.FlameLight:
+def light(shot: Shot, frame: int, height: float) -> FlameLight:
     """Return the light of flames in a frame, for a camera at a scene height (m)."""
     stops = float(exposure.at(shot, np.array([frame]))[0])
     state = sky.state(shot, float(shot.frames.times[frame - 1]))
     sun = state.power * np.array(state.colour) / (4.0 * np.pi)
-    return volume.FlameLight(
+    return FlameLight(
         visible=visible(core_luminance(stops)),
         extinction=EXTINCTION,
         soot=_SOOT * EXTINCTION,

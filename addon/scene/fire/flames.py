@@ -9,11 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
-from firetwin_core import constants, flux, lod
+from firetwin_core import constants, lod
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
-from ...run import burning
 from ...shot.cameras.path import Path
 from ...shot.fire import emissions, flame_map
 from ...shot.fire.flame_size import CROWNS, SIGHT, flame_length, flame_temperature, flame_tilt
@@ -40,7 +39,6 @@ _AROUND = 250.0  # m around a cell that its flames and firebrands reach
 _CROWN = 0.07  # area of a torching crown over the square of its height (assumed: 0.3 heights wide)
 _LIFE = (0.0, 0.2, 0.6, 1.0), (0.25, 1.0, 1.0, 0.2)  # size of a flame by its age in residence times
 _MEAN_LIFE = 0.765  # mean of that
-_CELL_FLAME = 40.0  # m; flame of a cell's emitter at scale 100
 
 Array = NDArray[np.float64]
 
@@ -56,7 +54,7 @@ class Points:
     arrival_time, residence
         (n,) s.
     intensity
-        (n,) fireline intensity, kW/m; in the mode "cells", the heat flux of the cell times its width.
+        (n,) fireline intensity, kW/m.
     length, width
         (n,) flame length and width, m.
     tilt
@@ -260,41 +258,6 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
 def _luck(clumps: Array, single: Array) -> Array:
     """Return numbers (n,), nearly uniform in 0..1, that are low in clumps (`flame_map.clumping`)."""
     return 1.0 / (1.0 + np.exp(_CLUMPED * clumps + _SINGLE * (2.0 * single - 1.0)))
-
-
-def cell_flames(shot: Shot) -> Points:
-    """Create flames from Algorithm 1's emitters (`flux.emitters`), each lit during its frame only.
-
-    An emitter is drawn as a flame of 40 m at scale 100 (assumed: the paper gives scales, not sizes).
-    """
-    run = shot.run
-    position = shot.local_frame.forward_grid(run.latitude, run.longitude, np.nan_to_num(shot.relief.coarse))
-    low, high = run.flux_range()
-    step = shot.frames.step or 1.0
-    width = float(np.sqrt(burning.cell_area(run) * run.surface_fuel.size / run.elevation.size))
-    parts = []
-    for time in shot.built_times:
-        emitters = flux.emitters(shot.fire.flux.at(float(time)), position, low, high)
-        count = len(emitters.cell)
-        length = emitters.scale / 100.0 * _CELL_FLAME
-        intensity = emitters.flux.astype(np.float64) * width / 1000.0
-        seed = (emitters.cell * 0.6180339887498949) % 1.0  # by cell: the same in every frame
-        parts.append(
-            Points(
-                emitters.position,
-                np.full(count, time - 0.5 * step),
-                np.full(count, step),
-                intensity,
-                length,
-                length * 0.8,
-                np.zeros(count),
-                flame_temperature(intensity),
-                seed,
-                1000.0 * intensity * width,
-                np.zeros(count),
-            )
-        )
-    return _limit_to_budget(_concatenate(parts), shot, shot.paths)
 
 
 def _concatenate(parts: list[Points]) -> Points:

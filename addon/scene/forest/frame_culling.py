@@ -30,7 +30,7 @@ class FrameCulling:
         self.plants = [(data, *_bounds(data)) for data in planted]
 
     def apply(self, frame: int) -> None:
-        """Set `IN_VIEW` for a frame; without culling (`render.cull`), no tree is hidden.
+        """Set `IN_VIEW` for a frame; without culling no tree is hidden.
 
         Trees that shade visible ground, or are near the view, are retained (see `visibility.visible`). Trees
         are planted up to the draw distance of the nearest frame; a frame from far above hides them one by one

@@ -36,8 +36,7 @@ def build(
     """Build "Firetwin Live Flames", of at most `budget` triangles; None without flames."""
     if not shot.settings.fire.flames:
         return None
-    cells = shot.settings.fire.emitters == "cells"
-    points = flames.cell_flames(shot) if cells else flames.front_flames(shot, grown)
+    points = flames.front_flames(shot, grown)
     kept = choose(viewers.distance(shot, points.position), budget // (2 * _SHEETS))
     if not len(kept):
         return None

@@ -30,7 +30,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
         _set_cycles_steps(stage.scene.cycles)
         _set_eevee_slices(stage.scene.eevee, *view.span(shot))
     layers.build(collection, len(drawn))
-    look = (flow_material if source.illuminated else material).build(shot, stage)
+    look = (flow_material if source.marched else material).build(shot, stage)
     return [_add_volume(shot, stage, collection, each, place, look) for each in drawn][-1]
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...blender import nodes
 from ...blender.owned import Stage
-from ...shot.light import exposure, exposure_meter, sky
+from ...shot.light import exposure, sky
 from ...shot.shot import Shot
 from ...smoke import flow_frames
 from .. import haze, infrared
@@ -28,7 +28,6 @@ _PALE, _FRESH = (
 )  # albedo of smoke from a grass fire, and from a crown fire's soot and char
 _TUNED = 0.945, 1.9  # albedo for which the light in smoke was tuned, and factor on deviations from it
 _OLD = np.array([0.995, 1.0, 1.005])  # albedo of aged haze and cloud, relative to green light
-_MIDDLE = (0.86, 0.83, 0.79)  # factor on light that reaches smoke through other smoke
 FORWARD = 0.6  # anisotropy of smoke (Reid et al. 2005: 0.5 to 0.65 in green light)
 # anisotropy that remains after forward-scattered light is counted as unscattered
 _ANISOTROPY = FORWARD / (1.0 + FORWARD)
@@ -62,8 +61,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
         "Light Density", _LIGHT, "Fraction of the smoke that attenuates light rays", "Light"
     )
     extinction = density * (1.0 + tree.attribute("hidden") * _hidden_factor(tree, thick))
-    lit = _solved_light if shot.settings.smoke.lighting == "solved" else _traced_light
-    visible = lit(tree, shot, stage, _Smoke(extinction, thinner, albedo, even))
+    visible = _visible_light(tree, shot, stage, _Smoke(extinction, thinner, albedo, even))
     shader = infrared.select_smoke_shader(tree, shot, stage, visible, density)
     # A mix by 0 or 1 evaluates one side only, and more than half of all steps are outside of smoke.
     clear = tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0})
@@ -85,7 +83,7 @@ def drawn_albedo(white: float) -> float:
     return tuned + slope * min(white - tuned, 0.0)
 
 
-def _solved_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
+def _visible_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
     """Shade smoke as emission: radiance from the light in its grids."""
     part, air = haze.fraction(tree, stage)
     light = sunlit.source_function(tree, shot, smoke.albedo, smoke.even)
@@ -99,24 +97,6 @@ def _solved_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> 
     path = tree.node("ShaderNodeLightPath")
     looks = tree.math("MAXIMUM", *(tree.pick(path, name) for name in ("Is Camera Ray", "Is Glossy Ray")))
     return tree.mix_shader(looks, _absorb(tree, smoke.thinner), emission)
-
-
-def _traced_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
-    """Shade smoke whose scattering Cycles traces."""
-    middle = tree.input(
-        "Inner Colour", _MIDDLE, "Albedo for light that arrives through other smoke", "Colour"
-    )
-    part, air = haze.fraction(tree, stage)
-    light = tree.emission(air, part * smoke.density)
-    if glow := _glow(tree, shot):
-        shine, bright = glow
-        shine = tree.vector("MULTIPLY", smoke.albedo, shine)
-        light = tree.add_shader(light, tree.emission(shine, bright * (1.0 - part) * smoke.density))
-    scattered = tree.mix_colour(part, smoke.albedo, (0.0, 0.0, 0.0))
-    detailed = tree.add_shader(material.smoke_shader(tree, smoke.density, scattered, smoke.even), light)
-    # Most steps are on light rays through the smoke, for which a single grid is enough.
-    camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    return tree.mix_shader(camera, material.smoke_shader(tree, smoke.thinner, middle, smoke.even), detailed)
 
 
 def _hidden_factor(tree: nodes.Tree, thick: nodes.Value) -> nodes.Value:
@@ -139,6 +119,6 @@ def _glow(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value] | Non
     """
     if exposure.darkness(shot, shot.frames.middle) <= 0.0:
         return None
-    shine, bright = material.glow_inputs(tree, shot, exposure_meter.flame_light_share(shot))
+    shine, bright = material.glow_inputs(tree, shot)
     share = 1.0 - tree.attribute("sky") * (1.0 - sky.THIN)
     return shine, tree.attribute("glow") * bright * share

@@ -1,7 +1,7 @@
-"""Material of puff smoke: sharp cauliflower edges with detail below the voxel size, lit by sun and flames.
+"""Material of a model's smoke: sharp billows with detail below the voxel size, lit by sun and flames.
 
-The grids are written by `firetwin_core.volume.write_smoke`. The outline is the clipped distance field plus
-billow noise, through a narrow step. Extinction comes from the smoke's mass.
+The grids are written by `firetwin_core.volume.write_levels`. The outline is their `density` plus billow
+noise, through a narrow step. Extinction comes from the smoke's mass.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     full = _extinction(tree.attribute("dilution"), opacity, drawn.extinction)
     albedo = tree.mix_colour(above.smoothstep(-200.0, 3200.0), fresh, old)
     noise = _billow(tree, position, carried, float(np.clip(6.0 * drawn.voxel, 260.0, 1000.0)))
-    # keeps small puffs from vanishing in the noise
+    # keeps smoke of fine models from vanishing in the noise
     reach = tree.math("MINIMUM", tree.attribute("size") * 0.8, _AMPLITUDE)
     depth = tree.attribute("density")
     density = (depth + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE) * full
@@ -115,11 +115,10 @@ def _extinction(dilution: nodes.Value, opacity: nodes.Value, most: float) -> nod
     return (1.0 - (-thickness).exp()) * most
 
 
-def glow_inputs(tree: nodes.Tree, shot: Shot, share: float = 1.0) -> tuple[nodes.Value, nodes.Value]:
-    """Add inputs for colour and strength of the flames' light on smoke that scatters a share of it."""
+def glow_inputs(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value]:
+    """Add inputs for colour and strength of the flames' light on smoke."""
     colour = tree.input("Glow Colour", tuple(sky.GLOW), "Colour of the flames' light on smoke", "Light")
-    light = share * glow_light(shot)
-    return colour, tree.input("Glow", light, "Brightness of the flames' light on smoke", "Light")
+    return colour, tree.input("Glow", glow_light(shot), "Brightness of the flames' light on smoke", "Light")
 
 
 def scattered_flame_light(density: nodes.Value) -> nodes.Value:
@@ -140,7 +139,7 @@ def _billow(tree: nodes.Tree, position: nodes.Value, carried: NoiseAdvection, si
     """Return billow noise, about 0..1 with mean 0.4, that is advected with the smoke.
 
     It moves with the wind some hundred metres above the ground. Between there and the top of the smoke the
-    wind of the puffs changes by an eighth.
+    wind changes by an eighth.
     """
     shift = [speed * _ALOFT for speed in carried.wind]
     time = nodes.model_time(tree)

@@ -63,7 +63,7 @@ def reach(shot: Any, path: Any) -> float:
     """Return the distance (m) up to which flames are drawn as a volume for a camera.
 
     There the typical long flames of the shown fronts are 2 pixels high. The distance is at most
-    `flame_size.SIGHT`, and 0 without flames along the front, or in an orthographic view.
+    `flame_size.SIGHT`, and 0 without flames, or in an orthographic view.
 
     Parameters
     ----------
@@ -72,8 +72,7 @@ def reach(shot: Any, path: Any) -> float:
     path
         A `cameras.path.Path` of the shot.
     """
-    fire = shot.settings.fire
-    if not path.perspective or not fire.flames or fire.emitters != "front":
+    if not path.perspective or not shot.settings.fire.flames:
         return 0.0
     return float(min(typical_length(shot) / (_PIXELS * path.pixel), flame_size.SIGHT))
 

@@ -118,7 +118,7 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
 
     facing = np.zeros(len(place))
     facing[ground] = _facing(shot, place[ground], light.direction)
-    shine = hidden * _shine(smoke, start, along, ends) * flame_light_share(shot)
+    shine = hidden * _shine(smoke, start, along, ends)
     return seen(facing), seen(light.direction[2]), shine
 
 
@@ -258,12 +258,6 @@ def _lit_smoke(light: sky.State, along: Array) -> Array:
     phase = np.arccos(-np.clip(along @ light.direction, -1.0, 1.0))
     sphere = (np.sin(phase) + (np.pi - phase) * np.cos(phase)) * 2.0 / (3.0 * np.pi)
     return _CLOUD * (light.power * sphere / np.pi + light.sky_mean)
-
-
-def flame_light_share(shot: Shot) -> float:
-    """Fraction of flame light that smoke scatters if the scene file limits its extinction."""
-    thickest = shot.settings.smoke.extinction or np.inf
-    return float(np.interp(thickest, sky.THICK, (sky.THIN, 1.0)))
 
 
 def _shine(smoke: SmokeParcels, start: Array, along: Array, ends: Array) -> Array:

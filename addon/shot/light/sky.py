@@ -59,7 +59,7 @@ GLOW = (1.0, 0.18, 0.027)  # colour of flame-lit smoke
 _GLOW_LIGHT = 0.0172, 0.2  # luminance of that, by day and by night
 # fraction of that light in thin smoke (single scattering) relative to thick smoke (multiple); by eye
 THIN = 0.03
-THICK = 0.004, 0.02  # extinctions (1/m) that count as thin and as thick in puffs
+THICK = 0.004, 0.02  # extinctions (1/m) that count as thin and as thick in a model's smoke
 
 
 class State:

@@ -38,7 +38,7 @@ class SceneSettings:
     cache: Path = key(Path("cache"), "folder of smoke volumes, for reuse", affects=())
     seed: int = key(
         1,
-        "random seed of trees, flames and puffs; the fire stays the same",
+        "random seed of trees, flames and smoke; the fire stays the same",
         at_least=0,
         at_most=LARGEST_SEED,
         affects=("terrain", "forest", "fire", "smoke"),

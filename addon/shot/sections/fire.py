@@ -14,11 +14,6 @@ from ..schema import key
 class FireSettings:
     """Flames, firebrands and glowing ash."""
 
-    emitters: str = key(
-        "front",
-        "placement of flames",
-        choices={"front": "along the front", "cells": "one per burning model cell"},
-    )
     flames: bool = key(True, "draw the flames")
     flame_length: str = key(
         "auto",
@@ -42,9 +37,6 @@ class FireSettings:
         unit="m",
         at_least=0,
         at_most=400,
-    )
-    volume_voxel: float = key(
-        0.5, "edge length of a voxel of these volumes", unit="m", at_least=0.1, at_most=10
     )
     observed: Path | None = key(
         None,

@@ -143,11 +143,7 @@ class Render:
     seed: int = key(
         0, "random seed of the render noise", at_least=0, at_most=LARGEST_SEED, affects=("grain",)
     )
-    cull: bool = key(
-        True,
-        "frustum and occlusion culling, level of detail, forest.budget; false: none, for comparison",
-        affects=("terrain", "forest", "fire", "smoke"),
-    )
+    cull: bool = True  # frustum and occlusion culling, level of detail, forest.budget; False in comparisons
     chunk: int = key(
         480,
         "build chunk: frames of a film built together; fewer need less memory, 0: all at once",

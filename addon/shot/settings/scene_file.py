@@ -15,7 +15,7 @@ from typing import Any
 from ...errors import InputError, input_error, reading
 from ..schema import Field, Key, Where, either, fields, items, validate
 from ..schema.did_you_mean import suggestion
-from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
+from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, REMOVED
 from ..schema.frame_list import FrameList
 from ..schema.scene_text import SceneText, load
 from ..sections import Time
@@ -108,7 +108,28 @@ class TableReader(SceneText):
                 )
                 self.former.append(str(self.error((section, key), f"{reason} in this version only")))
                 renamed[section] = {**table, key: new_values[then]}
-        return renamed
+        return self.without_removed(renamed)
+
+    def without_removed(self, values: dict[str, Any]) -> dict[str, Any]:
+        """Leave out removed keys that have their former default, with a note.
+
+        Raises
+        ------
+        InputError
+            A removed key has another value.
+        """
+        for (section, key), removed in REMOVED.items():
+            table = values.get(section)
+            if not isinstance(table, dict) or key not in table:
+                continue
+            gone = self.error(
+                (section, key), f"{section}.{key} was removed: {removed.reason}; delete the line"
+            )
+            if table[key] != removed.default:
+                raise gone
+            self.former.append(str(gone))
+            values = values | {section: {name: value for name, value in table.items() if name != key}}
+        return values
 
     def renamed(
         self, values: dict[str, Any], former: dict[Where, str], where: Where, shown: str

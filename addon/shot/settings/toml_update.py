@@ -81,9 +81,9 @@ def _with_current_names(there: str) -> str:
         there = re.sub(rf"(?m)^(\s*\[\s*){former}(?=\s*[\].])", rf"\g<1>{now}", there)
     tomllib.loads(there)  # only a valid text has positions
     lines, positions = there.split("\n"), places(there)
-    found = [(positions[each], *each) for each in FORMER_KEYS if each in positions]
+    found = [(positions[each], *each) for each in FORMER_KEYS | FORMER_VALUES if each in positions]
     for (line, column), section, former in sorted(found, reverse=True):  # from the end of each line
-        now = FORMER_KEYS[section, former]
+        now = FORMER_KEYS.get((section, former), former)
         before, pair = lines[line - 1][: column - 1], lines[line - 1][column - 1 :]
         if pair.startswith(former):
             lines[line - 1] = before + _with_current_value(section, now, pair.removeprefix(former))

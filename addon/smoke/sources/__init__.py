@@ -12,7 +12,7 @@ from ... import plugins
 from ...shot.shot import Shot
 from ._source import Source, VolumeLayer, allows_ray_march
 
-__all__ = ["Source", "VolumeLayer", "choose", "is_integrated", "known", "preview", "select"]
+__all__ = ["Source", "VolumeLayer", "choose", "find_preview", "is_integrated", "known", "select"]
 
 
 @functools.cache
@@ -21,7 +21,7 @@ def known() -> dict[str, type[Source]]:
     return plugins.values(__name__, "SOURCE")
 
 
-def preview() -> str:
+def find_preview() -> str:
     """Return the name of the source that is a quick preview of another one."""
     return next(name for name, source in known().items() if source.preview_of)
 

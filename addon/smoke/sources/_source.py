@@ -65,12 +65,11 @@ class Source(ABC):
         Name of its module, and its value of `smoke.method`.
     fields
         Run fields that it draws. Every run that has them uses this source, whatever `smoke.method` is. A
-        source without such fields is selected by `smoke.method`, and its module has `METHOD`, the fields of a
-        `SmokeMethod`.
+        source without such fields is selected by `smoke.method`, and its module has `METHOD`, its help.
     preview_of
         Name of the source that it previews, if any.
-    illuminated
-        True if its volumes contain the light that reaches the smoke.
+    marched
+        True if its volumes contain the light that reaches the smoke, and its `bricks` can be ray-marched.
     unused_settings
         Keys of [smoke] that do not affect its volumes.
     code
@@ -81,7 +80,7 @@ class Source(ABC):
     name: ClassVar[str]
     fields: ClassVar[tuple[str, ...]] = ()
     preview_of: ClassVar[str] = ""
-    illuminated: ClassVar[bool] = False
+    marched: ClassVar[bool] = False
     unused_settings: ClassVar[tuple[str, ...]] = ()
     code: ClassVar[tuple[str, ...]] = ()
 
@@ -138,11 +137,6 @@ class Source(ABC):
         return nullcontext()
 
     # rendering
-
-    @property
-    def marched(self) -> bool:
-        """True if its `bricks` can be ray-marched."""
-        return False
 
     @abstractmethod
     def layers(self) -> list[VolumeLayer]:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from firetwin_core import volume
@@ -23,29 +23,39 @@ from ..domains import Domain
 from ..flow import Flow
 from ._source import Lights, Source, VolumeLayer, allows_ray_march
 
-METHOD = {"help": "flow solved once per shot", "history": "spin_up", "solved": True}
+METHOD = "solved once per shot"
 Made = TypeVar("Made")
 _EMPTY = 100.0  # m, voxel of the volume without fire
 _COARSER = 2.0  # voxel size of sub-frames over the voxel size of frames
 
 
 class FlowSource(Source):
-    """Smoke of a solved flow, painted with subgrid detail and with the light that reaches it."""
+    """Smoke of a solved flow, painted with subgrid detail and with the light that reaches it.
+
+    Attributes
+    ----------
+    flow_type
+        Kind of the flow.
+    detailed
+        True if a frame of a time lapse shows several moments, and smoke near the camera has finer voxels.
+    """
 
     name = "flow"
-    illuminated = True
+    marched = True
+    flow_type: ClassVar[type[Flow]] = Flow
+    detailed: ClassVar[bool] = True
 
     def __init__(self, shot: Shot) -> None:
         super().__init__(shot)
-        self.exposure = shutter.exposure(shot) if self.marched and allows_ray_march(shot) else 0.0
+        self.exposure = shutter.exposure(shot) if self.detailed and allows_ray_march(shot) else 0.0
         self.parts = shutter.parts(self.exposure)
-        self.flow = Flow(shot.with_sub_frames(self.parts), lambda *done: self.progress(*done))
+        self.flow = self.flow_type(shot.with_sub_frames(self.parts), lambda *done: self.progress(*done))
         self.flow.elsewhere, self.flow.stop = lambda: self.elsewhere(), self.stop
         self._cached_close_up: flow_frames.Painter | None = None
 
     def inputs(self) -> dict[str, Any]:
-        """Return the folders of its snapshots, and the extinction of its voxels."""
-        return {"flow": [self.flow.key(), self.shot.settings.smoke.extinction]}
+        """Return the folders of its snapshots."""
+        return {"flow": self.flow.key()}
 
     def voxels(self) -> list[Any]:
         """Return layers with their voxel sizes, and the flow's cell sizes, m."""
@@ -78,17 +88,12 @@ class FlowSource(Source):
         """Protect the snapshots from eviction while in use."""
         return self.flow.in_use()
 
-    @property
-    def marched(self) -> bool:
-        """True: light is computed once per frame and stored in the volumes."""
-        return self.shot.settings.smoke.lighting == "solved"
-
     def layers(self) -> list[VolumeLayer]:
         """Return the volume layers of both domains; one empty volume without fire."""
-        thickest = self.shot.settings.smoke.extinction or flow_frames.max_extinction(self.shot.scale)
-        depth = view.SOLVED_STEP_DEPTH if self.marched else view.STEP_DEPTH
+        thickest = flow_frames.max_extinction(self.shot.scale)
+        step = view.SOLVED_STEP_DEPTH / thickest
         result = [
-            VolumeLayer(layer.name, layer.voxel, depth / thickest * (1.0 if layer.fine else 2.0), thickest)
+            VolumeLayer(layer.name, layer.voxel, step * (1.0 if layer.fine else 2.0), thickest)
             for layer in self._layers
         ]
         return result or [VolumeLayer("smoke", _EMPTY, _EMPTY, thickest)]
@@ -159,7 +164,7 @@ class FlowSource(Source):
         inputs = (number, self._glow(time), self.view_set(frame))
         result: list[volume.Bricks] = []
         beyond: flow_frames.OuterLayer | None = None
-        close = painters and painters[-1].layer.voxel == self._layers[-1].voxel
+        close = self.detailed and painters and painters[-1].layer.voxel == self._layers[-1].voxel
         window = close_up.window(self.shot, frame, painters[-1].layer.voxel) if close else None
         if window is not None and painters[-1].layer.fine:
             painters = [*painters, self._close_up_painter(painters[-1].layer, window)]

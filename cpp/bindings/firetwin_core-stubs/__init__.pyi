@@ -1,6 +1,7 @@
 """Numerical core of Firetwin: functions of NumPy arrays."""
 
 from . import constants as constants
+from . import flames as flames
 from . import flow as flow
 from . import flux as flux
 from . import forest as forest

@@ -6,92 +6,12 @@ from os import PathLike
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .flames import FlameVolume
 from .geo import LocalFrame
 from .lod import ViewSet
 
 FRESH_SMOKE: float
 """Smoke that counts as dilution 1, kg/m3."""
-
-class Puffs:
-    """Gaussian-puff smoke at one time as n balls, computed in closed form: no earlier state is needed."""
-
-    @property
-    def position(self) -> NDArray[np.float32]:
-        """(n, 3) metres."""
-    @property
-    def radius(self) -> NDArray[np.float32]:
-        """(n,) metres."""
-    @property
-    def density(self) -> NDArray[np.float32]:
-        """(n,) smoke density of the puff, kg/m3; a surface ball has the density of its parent."""
-    @property
-    def age(self) -> NDArray[np.float32]:
-        """(n,) seconds."""
-    @property
-    def mass(self) -> NDArray[np.float64]:
-        """(n,) kg of smoke; 0 for the balls that shape the surface of a puff."""
-    @property
-    def identity(self) -> NDArray[np.uint64]:
-        """(n,) identifier of a ball, constant in time."""
-    @property
-    def emitted(self) -> float:
-        """Smoke emitted up to this time, kg."""
-    @property
-    def left(self) -> float:
-        """Smoke that is too old or too thin to be shown, kg: emitted = sum of mass + left."""
-    def __len__(self) -> int: ...
-
-def puffs(
-    time: float,
-    arrival: ArrayLike,
-    fuel: ArrayLike,
-    position: ArrayLike,
-    wind: ArrayLike,
-    cell_area: float,
-    interval: float = 60.0,
-    max_age: float = 5400.0,
-    burn_time: float = 600.0,
-    stability: float = 1.0e-4,
-    seed: int = 0,
-    smoke_fraction: float = 0.02,
-    heat_of_combustion: float = 17.433e6,
-    block: float = 400.0,
-    merge_radius: float = 2000.0,
-    smallest: float = 50.0,
-    turbulence: float = 1.0,
-) -> Puffs:
-    """Compute puffs in closed form at `time` (s) from cells that burned.
-
-    Parameters
-    ----------
-    arrival, fuel, position
-        (n,) s, (n,) kg/m2 consumed and (n, 3) m; all finite, without cells that do not burn.
-    wind
-        (n, 2) or broadcastable, m/s east and north at 10 m above the ground, when the cell burned.
-    cell_area
-        m2.
-    interval
-        s of emission that make one puff.
-    burn_time
-        s in which a cell burns out.
-    stability
-        Square of the buoyancy frequency, 1/s2.
-    block, merge_radius, smallest
-        m: side of the squares whose cells share a puff; distance within which plumes merge; radius of the
-        smallest surface ball.
-    turbulence
-        0 keeps every puff on the axis of its plume.
-
-    Notes
-    -----
-    Rise follows Briggs (1969, 1984), see cpp/volume/plume.hpp; growth, stems and surface balls are described
-    in cpp/volume/puffs.hpp.
-
-    Raises
-    ------
-    ValueError
-        An array has the wrong shape or contains NaN, or a number is not positive.
-    """
 
 class VdbSummary:
     """Summary of one VDB file."""
@@ -118,34 +38,6 @@ class VdbSummary:
     def culled_mass(self) -> float:
         """Mass of smoke in blocks that frustum and occlusion culling removed, kg."""
 
-def write_smoke(
-    path: str | PathLike[str],
-    puffs: Puffs,
-    voxel_size: float,
-    flame_position: ArrayLike | None = None,
-    flame_power: ArrayLike | None = None,
-    metadata: Mapping[str, str] | None = None,
-    grids: Sequence[str] | None = None,
-    views: ViewSet | None = None,
-) -> VdbSummary:
-    """Write puffs as a sparse volume, half precision with Blosc, to a temporary file that is then renamed.
-
-    Grids: `density` (clipped signed distance (m + 300) / 600), `dilution` (in units of FRESH_SMOKE), `shade`
-    (dilution with a sharp edge), `size` (km, of the local ball), `temperature` (K) and, with flames (n, 3) m
-    and (n,) W, `glow` (1 among flames of 1 GW) and `flame` (GW, at most 1). See cpp/volume/smoke.hpp. `grids`
-    lists the grids to write (None: all). With `views`, blocks of 8^3 voxels are culled (with a margin of
-    300 m); the other blocks are unchanged.
-
-    Raises
-    ------
-    ValueError
-        An array has the wrong shape, voxel_size is not 1e-4 to 1e6 m, or a grid name is unknown.
-    Error
-        The voxels are far too small for smoke of this extent.
-    InputError
-        The folder is missing or cannot be written.
-    """
-
 def write_levels(
     path: str | PathLike[str],
     frame: LocalFrame,
@@ -162,7 +54,13 @@ def write_levels(
     grids: Sequence[str] | None = None,
     views: ViewSet | None = None,
 ) -> VdbSummary:
-    """Write smoke on terrain-following levels as a volume with the grids of `write_smoke`.
+    """Write smoke on terrain-following levels as a sparse volume, half precision with Blosc.
+
+    Grids: `density` (0 to 1, thick smoke), `dilution` (in units of FRESH_SMOKE), `shade` (dilution with a
+    sharp edge), `size` (km, the spacing of the model's columns), `temperature` (K) and, with flames (n, 3) m
+    and (n,) W, `glow` (1 among flames of 1 GW) and `flame` (GW, at most 1). See cpp/volume/grids.hpp. `grids`
+    lists the grids to write (None: all). With `views`, blocks of 8^3 voxels are culled (with a margin of
+    300 m); the other blocks are unchanged. The file is renamed when it is complete.
 
     Parameters
     ----------
@@ -514,143 +412,6 @@ class Illumination:
         haze, haze_height
             Extinction (1/m) at height 0 of two layers of haze, and their e-folding heights (m).
         """
-
-class FlameShape:
-    """Shape of flames; the numbers are chosen by eye."""
-
-    def __init__(
-        self,
-        *,
-        wind: Sequence[float],
-        fill: float = 0.9,
-        taper: float = 0.95,
-        ragged: float = 2.3,
-        edge: float = 0.22,
-        roll: float = 0.17,
-        broken: float = 0.6,
-    ) -> None:
-        """Set all parameters.
-
-        Parameters
-        ----------
-        wind
-            Speed at which rising gas is carried, m/s east and north.
-        fill, taper, ragged
-            Value at the foot of a flame (it burns above 0), its decrease over the flame's length, and the
-            strength of the noise.
-        edge
-            Values from 0 over which a flame becomes opaque.
-        roll
-            Displacement by eddies relative to their size.
-        broken
-            Strength of gaps at the foot, where fuel is gone.
-        """
-
-class FlameLight:
-    """Light and temperature of flames by heat: 0 in the coolest part, 1 in the hottest."""
-
-    def __init__(
-        self,
-        *,
-        visible: ArrayLike,
-        extinction: float,
-        soot: float,
-        soot_light: Sequence[float],
-        coolest: float,
-        hottest: float,
-        scales: Sequence[Sequence[float]],
-        infrared: float,
-        dim: float,
-    ) -> None:
-        """Set all parameters.
-
-        Parameters
-        ----------
-        visible
-            (n, 3) radiance at evenly spaced heats.
-        extinction, soot
-            Extinction of flames, and of the cooled soot over them, 1/m.
-        soot_light
-            (3,) radiance of soot per unit of optical depth.
-        coolest, hottest
-            Temperatures at heat 0 and 1, K.
-        scales
-            (k, 3) flame lengths, m, with factors on the visible and the infrared extinction of flames; linear
-            between, constant outside.
-        infrared
-            Infrared extinction of flames, 1/m.
-        dim
-            Optical depth of 1 km of air in the infrared; it grows with the distance to the power 0.75.
-        """
-
-class FlameVolume:
-    """Flames of one frame as a volume: a function of place and time, without stored voxels."""
-
-    def __init__(
-        self,
-        *,
-        squares: Sequence[tuple[ArrayLike, ArrayLike, Sequence[float], float]],
-        spindles: ArrayLike,
-        shape: FlameShape,
-        light: FlameLight,
-        pixel: float,
-        fade: Sequence[float],
-        origin: Sequence[float],
-        time: float,
-    ) -> None:
-        """Set the flames of one frame.
-
-        Parameters
-        ----------
-        squares
-            Nested squares, finest first: (rows, columns) flame length and height of the ground, m, x and y of
-            the first value, and the distance between values, m. Rows run north. A place takes the first
-            square that contains it; nothing burns outside.
-        spindles
-            (n, 6) crowns in flames: x, y and z of the foot, heights of their base and top, and radius, m.
-        pixel
-            Size of a pixel per distance, m/m.
-        fade
-            Distances (m) between which flames fade out.
-        origin
-            A point near the camera; it improves precision only.
-        time
-            Model time, s.
-
-        Raises
-        ------
-        ValueError
-            Shapes do not match.
-        """
-
-    def sample(self, points: ArrayLike, fine: float = 0.0) -> NDArray[np.float32]:
-        """Return extinction (1/m), visible and infrared, and temperature (K) at points (n, 3): (n, 3).
-
-        All are 0 without flames. Eddies smaller than `fine` (m) are left out. Flames fade out with the
-        distance from the origin. Cooled soot over the flames is not included.
-        """
-
-def write_flames(
-    path: str | PathLike[str],
-    flames: FlameVolume,
-    voxel_size: float,
-    *,
-    metadata: Mapping[str, str] | None = None,
-) -> VdbSummary:
-    """Write flames as an OpenVDB file: `flames` and `infrared` (extinction, 1/m), and `temperature` (K).
-
-    The voxels have the values of `FlameVolume.sample` at their centres, in half precision, up to the distance
-    at which the flames fade out. Memory: 76 bytes per block of 8^3 voxels with flames.
-
-    Raises
-    ------
-    ValueError
-        voxel_size is not 1e-4 to 1e6 m.
-    Error
-        The voxels are far too small for the extent of the flames.
-    InputError
-        The folder is missing or cannot be written.
-    """
 
 def march(
     layers: Sequence[Bricks],

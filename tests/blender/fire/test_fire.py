@@ -11,7 +11,6 @@ from firetwin.scene.fire import flames
 from firetwin.shot.fire import flame_map
 from firetwin.shot.sections import FireSettings
 from firetwin.shot.shot import Shot
-from firetwin_core import flux
 from firetwin_core import run as runs
 
 
@@ -151,19 +150,6 @@ def test_scrubbing_moves_the_flames(shot, stage, scene, plain_looks):
     assert np.median(apart) > 200.0
     assert np.array_equal(placed(scene, 2), middle)
     assert not thing.visible_shadow
-
-
-def test_cells_are_algorithm_1(shot, settings, run):
-    emitters = flames.cell_flames(Shot(replace(settings, fire=FireSettings(emitters="cells")), run))
-    low, high = run.flux_range()
-    position = shot.local_frame.forward_grid(
-        run.latitude, run.longitude, np.asarray(run.elevation, np.float64)
-    )
-    for time in shot.frames.times:
-        expected = flux.emitters(flux.at_time(run, float(time)), position, low, high)
-        lit = emitters.take(emitters.lit(time))
-        assert np.array_equal(lit.position, expected.position)
-        assert lit.length == pytest.approx(0.4 * expected.scale)
 
 
 def test_flames_off_builds_nothing(settings, run, stage):

@@ -142,7 +142,7 @@ def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_
 
 def test_all_that_fire_and_smoke_make_is_ours_and_goes_again(near, run, scene, sun_at):
     sun_at(-20.0)
-    shot = Shot(replace(near, smoke=SmokeSettings(method="puffs", voxel_size=120.0)), run)
+    shot = Shot(replace(near, smoke=SmokeSettings(method="preview", voxel_size=120.0)), run)
     kinds = ("objects", "meshes", "lights", "volumes", "materials", "node_groups", "collections", "actions")
     before = {block for kind in kinds for block in getattr(bpy.data, kind)}
     stage = owned.stage(scene)

@@ -21,7 +21,7 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path, capsys):
     for former, name in (("ground", "terrain"), ("places", "labels")):
         stored[former] = stored[name].to_dict()
         del stored[name]
-    stored["render"] = {"skip": 0}
+    stored["render"] = {"skip": 0, "cull": 0}  # removed keys
     stored["ground"]["stand"] = 1
     stored["time"] = {"fps": 12}  # an integer property then
     stored["tiles"] = {"error": 3.0, "trees": 2, "exact": '{"error": 3.123456789}'}
@@ -37,7 +37,6 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path, capsys):
         True,
         17,
     )
-    assert not settings.render.cull
     assert settings.time.fps == 12.0
     assert (settings.terrain.height_source, settings.tiles.vegetation) == ("tiles", "scene_near_burn")
     assert settings.tiles.max_screen_space_error == pytest.approx(3.0)
@@ -54,7 +53,8 @@ def test_presets_of_the_last_version_are_updated(tmp_path, monkeypatch):
     path.write_text(
         "import bpy\nfiretwin = bpy.context.scene.firetwin\n\nfiretwin.seed = 1\n"
         "firetwin.ground.stand = 'tiles'\n"
-        "firetwin.render.skip = True\nfiretwin.tiles.error = 3.0\nfiretwin.tiles.trees = 'theirs'\n"
+        "firetwin.render.skip = True\nfiretwin.smoke.method = 'puffs'\n"
+        "firetwin.tiles.error = 3.0\nfiretwin.tiles.trees = 'theirs'\n"
         "firetwin.tiles.use_geoid = False\n"
     )
     monkeypatch.setattr(bpy.utils, "preset_paths", lambda _: [str(tmp_path)])
@@ -62,7 +62,8 @@ def test_presets_of_the_last_version_are_updated(tmp_path, monkeypatch):
     assert path.read_text().splitlines()[3:] == [
         "firetwin.seed = 1",
         "firetwin.terrain.height_source = 'tiles'",
-        "firetwin.render.cull = True",
+        "",
+        "firetwin.smoke.method = 'preview'",
         "firetwin.tiles.max_screen_space_error = 3.0",
         "firetwin.tiles.vegetation = 'tileset'",
         "firetwin.tiles.use_geoid = False",

@@ -47,9 +47,8 @@ def test_cells_count_until_all_moments_are_kept(settings, run, few_cells, built,
     assert memory_estimate.load(shot, built, [1, 2]) == replace(load, cells=0)
 
 
-@pytest.mark.parametrize("smoke", [{"method": "puffs"}, {"lighting": "traced"}, {"draw": "volume"}])
-def test_nothing_is_said_of_smoke_that_cycles_holds(settings, run, built, smoke):
-    shot = Shot(_smoky(settings, **smoke), run)
+def test_nothing_is_said_of_smoke_that_cycles_holds(settings, run, built):
+    shot = Shot(_smoky(settings, draw="volume"), run)
     assert memory_estimate.load(shot, built, [1]) is None
     assert memory_estimate.load(shot, built, []) is not None, "where no picture shows it"
 

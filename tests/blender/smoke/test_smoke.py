@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import bpy
+import levels_run
 import numpy as np
 import plumes
 import pytest
@@ -21,15 +22,25 @@ from firetwin.shot.settings import Camera
 from firetwin.shot.settings import scene_file as file
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake, cache, sources
-from firetwin.smoke.sources.puffs import PuffSource
+from firetwin.smoke.sources.model import ModelSource
 from firetwin_core import InputError, lod
 from firetwin_core import run as runs
 
 
+@pytest.fixture(scope="module")
+def levels_folder(run_folder, tmp_path_factory):
+    """The small run, with smoke on levels."""
+    return levels_run.write(run_folder, tmp_path_factory.mktemp("levels") / "run")
+
+
+@pytest.fixture
+def run(levels_folder):
+    return runs.open(levels_folder)
+
+
 @pytest.fixture
 def smoky(settings):
-    """The small scene with puffs of smoke."""
-    return replace(settings, smoke=SmokeSettings(method="puffs", voxel_size=120.0, max_age=1800.0))
+    return replace(settings, smoke=SmokeSettings(voxel_size=120.0))
 
 
 @pytest.fixture
@@ -68,7 +79,6 @@ def test_how_smoke_is_shown_and_recorded_needs_no_other_volumes(smoky, run):
         replace(smoky, cameras=(replace(camera, name="b", frames="1-3"),)),
         replace(smoky, render=replace(render, engine="eevee", samples=99)),
         replace(smoky, render=replace(render, resolution=(128, 72))),
-        replace(smoky, smoke=replace(smoky.smoke, extinction=0.02)),
         replace(smoky, time=replace(smoky.time, fps=30)),
     ):
         assert bake.folder(Shot(same, run)) == before
@@ -82,9 +92,9 @@ def test_how_smoke_is_shown_and_recorded_needs_no_other_volumes(smoky, run):
         assert bake.folder(Shot(other, run)) != before
 
 
-def test_the_key_is_what_is_in_the_run_not_when_it_was_written(smoky, run, run_folder, tmp_path):
+def test_the_key_is_what_is_in_the_run_not_when_it_was_written(smoky, run, levels_folder, tmp_path):
     copy = tmp_path / "copy"
-    shutil.copytree(run_folder, copy)
+    shutil.copytree(levels_folder, copy)
     again = runs.open(copy)
 
     def folder(run):
@@ -95,7 +105,7 @@ def test_the_key_is_what_is_in_the_run_not_when_it_was_written(smoky, run, run_f
     fuel[60, 60] += 0.1
     np.save(copy / "surface_fuel.npy", fuel)
     assert folder(again) != folder(run)
-    shutil.copy(run_folder / "surface_fuel.npy", copy)
+    shutil.copy(levels_folder / "surface_fuel.npy", copy)
     assert folder(again) == folder(run)
     np.save(copy / "temperature.npy", np.full((11, 24, 24), 300.0, np.float32))  # nobody asks it
     assert folder(again) == folder(run)
@@ -133,18 +143,12 @@ def test_frames_that_the_shot_does_not_have_are_no_error(shot):
     assert sorted(file.name for file in place.iterdir()) == ["smoke_000002.txt", "smoke_000002.vdb"]
 
 
-def test_smoke_of_the_model_is_used_where_the_run_has_it(smoky, run, run_folder, tmp_path):
+def test_smoke_of_the_model_is_used_where_the_run_has_it(smoky, run, run_folder, levels_folder, tmp_path):
     folder = tmp_path / "levels"
-    shutil.copytree(run_folder, folder)
-    levels = run.elevation + np.linspace(10.0, 3000.0, 12, dtype=np.float32)[:, None, None]
-    smoke = np.zeros((len(run.times), *levels.shape), np.float32)
-    smoke[:, 4:8, 8:16, 8:16] = 1.0e-6 * (1.0 + np.arange(len(run.times)))[:, None, None, None]
-    np.save(folder / "height_3d.npy", levels)
-    np.save(folder / "smoke_3d.npy", smoke)
-    model = runs.open(folder)
+    shutil.copytree(levels_folder, folder)
     whole = replace(smoky, smoke=replace(smoky.smoke, complete=True))
-    shot = Shot(whole, model)
-    assert bake.folder(shot) != bake.folder(Shot(whole, run))
+    shot = Shot(whole, run)
+    assert bake.folder(shot) != bake.folder(Shot(whole, runs.open(run_folder)))
     found = plumes.read(bake.bake(shot, frames=[2]) / "smoke_000002.vdb")
     assert {"density", "dilution", "shade", "size", "temperature"} <= set(found)
     time = shot.frames.times[1]
@@ -222,14 +226,6 @@ def test_smoke_lies_beside_the_scene_file_wherever_that_is_called_from(run_folde
     monkeypatch.chdir(tmp_path)
     loaded = file.read("sub/scene.toml")
     assert bake.folder(Shot(loaded, runs.open(loaded.run))).parent == tmp_path / "sub" / "kept"
-
-
-def test_steps_suit_the_extinction(smoky, shot, run):
-    drawn = bake.resolution(shot)
-    assert drawn.voxel == 120.0
-    assert drawn.step * drawn.extinction <= 1.0
-    given = replace(smoky, smoke=replace(smoky.smoke, extinction=0.03))
-    assert bake.resolution(Shot(given, run)).step == pytest.approx(drawn.step * drawn.extinction / 0.03)
 
 
 def test_blender_reads_the_grids_of_every_frame(shot, stage, scene):
@@ -332,14 +328,14 @@ def test_several_may_write_one_volume_at_once(smoky, run, tmp_path):
 
 def test_the_first_picture_waits_for_its_own_volume_alone(shot, monkeypatch):
     written, go_on, told, said = [], threading.Semaphore(1), [], []
-    write = PuffSource.write
+    write = ModelSource.write
 
     def slow(self, path, frame):
         go_on.acquire()
         written.append(frame)
         return write(self, path, frame)
 
-    monkeypatch.setattr(PuffSource, "write", slow)
+    monkeypatch.setattr(ModelSource, "write", slow)
     with bake.ahead(shot, [1, 3, 2], lambda *done: told.append(done[:2]), said.append) as ready:
         ready(1)
         assert written == [1]
@@ -365,7 +361,7 @@ def test_leaving_cancels_what_has_not_begun(shot, monkeypatch):
         begun.set()
         go_on.wait(10.0)
 
-    monkeypatch.setattr(PuffSource, "write", write)
+    monkeypatch.setattr(ModelSource, "write", write)
     with bake.ahead(shot, [1, 2, 3]) as ready:
         waiting = threading.Thread(target=ready, args=(1,))
         waiting.start()
@@ -377,14 +373,14 @@ def test_leaving_cancels_what_has_not_begun(shot, monkeypatch):
 
 
 def test_what_goes_wrong_meanwhile_is_raised_when_it_is_wanted(shot, monkeypatch):
-    write = PuffSource.write
+    write = ModelSource.write
 
     def wrong(self, path, frame):
         if frame == 2:
             raise OSError("the disk is full")
         return write(self, path, frame)
 
-    monkeypatch.setattr(PuffSource, "write", wrong)
+    monkeypatch.setattr(ModelSource, "write", wrong)
     with bake.ahead(shot, [1, 2]) as ready:
         ready(1)
         with pytest.raises(OSError, match="full"):

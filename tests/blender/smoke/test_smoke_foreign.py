@@ -196,5 +196,3 @@ def test_what_solving_takes_is_said_before_it_and_not_after(make, shoot_flow):
     assert str(shot.settings.cache) in said
     bake.bake(shot)
     assert sources.select(shot).cost() is None
-    puffs = replace(shot.settings, smoke=replace(shot.settings.smoke, method="puffs"))
-    assert sources.select(Shot(puffs, shot.run)).cost() is None

@@ -194,9 +194,9 @@ def _new(folder, path):
 
 
 def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monkeypatch):
-    """Puffs are a preview; the panel shows the cost of a flow before it is solved."""
+    """The panel of a preview shows the cost of a flow before it is solved."""
     settings.run = str(run_folder)
-    assert settings.smoke.method == "puffs"
+    assert settings.smoke.method == "preview"
     assert "about " in settings.smoke_cost
     asked = sources.select(replace(scene_settings.shot_source(settings), smoke="flow").shot()).cost()
     assert settings.smoke_cost == asked.brief()
@@ -238,7 +238,7 @@ def test_properties_say_what_the_schema_says(settings):
 def test_the_panel_says_what_smoke_is_made_of(settings, scene_file, run_folder):
     """A run alone gets a preview: solving the air of all of it takes long, and nobody asked for it."""
     settings.run = str(run_folder)
-    assert settings.smoke.method == "puffs"
+    assert settings.smoke.method == "preview"
     settings.smoke.method = "flow"
     assert scene_settings.shot_source(settings).shot().settings.smoke.method == "flow"
     settings.scene_file = str(scene_file)

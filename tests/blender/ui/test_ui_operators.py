@@ -183,7 +183,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
         if name == "run_remove":
             bpy.context.scene.firetwin.runs.add().name = "other"
         if name == "solve":
-            bpy.context.scene.firetwin.smoke.method = "puffs"
+            bpy.context.scene.firetwin.smoke.method = "preview"
         if name == "show_live":
             bpy.ops.firetwin.live()
         if name in ("station_map", "allocate"):

@@ -36,7 +36,7 @@ PAUSE = (0.02, 0.15)  # between two faults, of the duration of an undisturbed re
 STOPPED = (0.5, 20.0)  # s; leases expire after 16
 BROKEN = (0.05, 0.3)  # of that duration: a full or read-only disk
 OTHER = {
-    "smoke/stability.py": "DAY, NIGHT = 9.0 * DAY, 9.0 * NIGHT\n",
+    "smoke/atmosphere.py": "WIND = 0.5\n",
     "render/engine.py": """
 _cycles_before = _cycles
 def _cycles(settings, scene):

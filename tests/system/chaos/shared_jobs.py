@@ -38,7 +38,7 @@ chunk = 2
 name = "drone"
 keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
 """
-PUFFS = '[smoke]\nmethod = "puffs"\nvoxel_size = 120.0\n'
+PREVIEW = '[smoke]\nmethod = "preview"\nspin_up = 60.0\nvoxel_size = 120.0\n'
 FLOW = '[smoke]\nmethod = "flow"\ncell_budget = 0.1\nspin_up = 60.0\nvoxel_size = 150.0\n'
 TILES = 'tiles = {{ sources = ["{url}/tileset.json"], max_screen_space_error = 1.0, geoid = -24.9 }}'
 RENDER = "render {place}/scene.toml --out {place}/out --resume"
@@ -113,7 +113,7 @@ def all_jobs(run_folder: Path, place: Path) -> list[Job]:
     run("tiles make {place}/ground.toml --out {place}/set --credit Nobody --geoid -24.9", place)
     tiles = TILES.format(url=serve(place / "set"))
     jobs = [
-        Job("render", ground + PUFFS),
+        Job("render", ground + PREVIEW),
         Job(
             "farm",
             ground + FLOW,

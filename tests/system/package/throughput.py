@@ -28,17 +28,12 @@ def jobs(core, folder):
     height = rng.uniform(500, 2000, (SIDE, SIDE)).astype(np.float32)
     flux = rng.uniform(0, 1e5, (144, 144)).astype(np.float32)
     position = frame.forward_grid(latitude[::5], longitude[::5], height[::5, ::5])
-    cells = 200
-    arrival = np.sort(rng.uniform(0, 3600, cells))
-    place = np.stack([arrival * 2, rng.uniform(-3000, 3000, cells), rng.uniform(800, 1200, cells)], axis=1)
-    smoke = core.volume.puffs(3600.0, arrival, rng.uniform(1, 6, cells), place, [4.0, 3.0], 74.0**2)
     array = rng.random((160, 160, 80)).astype(np.float32)
     path = os.path.join(folder, "smoke.vdb")
     return {
         "forest, 720 x 720 cells": lambda: core.forest.trees(fuel, latitude, longitude, height, frame),
         "emitters, 144 x 144 cells": lambda: core.flux.emitters(flux, position, 0.0, 1e5),
         "array to VDB, 2 Mvoxel": lambda: core.volume.write(path, {"density": array}, 20.0),
-        "smoke frame to VDB": lambda: core.volume.write_smoke(path, smoke, 50.0),
     }
 
 

@@ -26,7 +26,7 @@ from firetwin.shot.cameras.rigs.chase import Chase
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import Camera, Settings, scene_file
 from firetwin.shot.shot import Shot
-from firetwin.smoke import integrator, snapshots
+from firetwin.smoke import coarse, integrator, snapshots
 from small_run import small_fields
 
 HOURS = tuple(3600.0 * np.arange(0.0, 25.0, 6.0))
@@ -66,7 +66,7 @@ FIRES = {
 def wide_cells():
     """Solve the coarse flow on wider cells, in a fraction of the time."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(coarse_smoke, "_COLUMNS", (600, 1200))
+        patch.setattr(coarse, "COLUMNS", (600, 1200))
         patch.setattr(flank, "_PLACES", 3)
         yield
 
@@ -168,7 +168,7 @@ def test_coarse_smoke_and_its_nest_have_the_heat_and_smoke_of_the_fire(fit_of, m
     monkeypatch.setattr(coarse_smoke.snapshots, "save", note)
     coarse_smoke.CoarseSmoke(shot, [0])
     fire = shot.fire.sources(shot.frames.first)
-    lead = shot.scale.time(coarse_smoke._LEAD)
+    lead = shot.scale.time(coarse.LEAD)
     (_, _), (smoke, heat) = given
     assert smoke == pytest.approx(lead * fire.smoke.sum(), rel=0.3)
     assert heat == pytest.approx(integrator.CONVECTED * lead * fire.power.sum(), rel=0.3)

@@ -15,7 +15,9 @@ run = "{run}"
 frames = 2
 shutter = 0.0
 [smoke]
-method = "puffs"
+method = "preview"
+spin_up = 60.0
+draw = "volume"
 voxel_size = 400.0
 """
 
@@ -43,14 +45,17 @@ def test_volumes_are_written_for_the_chosen_frames_and_all_cameras(choice):
     )
     assert len(bake.run(choice)) == 2
     (folder,) = bake.run(choice, volumes=True, frames=[2, 7])
-    assert sorted(path.name for path in folder.iterdir()) == ["smoke_000002.txt", "smoke_000002.vdb"]
+    assert sorted(path.name for path in folder.iterdir()) == [
+        "far_000002.vdb",
+        "smoke_000002.txt",
+        "smoke_000002.vdb",
+    ]
 
 
 def test_smoke_that_is_integrated_along_rays_needs_no_volumes(choice, monkeypatch):
     """Only the flow is solved, as a farm's stage bake does."""
     scene = Path(choice.scene)
-    flow = "spin_up = 60.0\ncell_budget = 0.1"
-    scene.write_text(scene.read_text().replace('method = "puffs"', f'method = "flow"\n{flow}'))
+    scene.write_text(scene.read_text().replace('draw = "volume"', "cell_budget = 0.1"))
     (*folders,) = bake.run(choice)
     assert folders
     assert sorted(path.name for path in folders[0].glob("moment*")) == [

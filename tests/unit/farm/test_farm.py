@@ -57,7 +57,7 @@ def make_shot(make_run, tmp_path):
     """A shot of the small run: make(frames, cameras={name: frames}, chunk=..., smoke=..., more=...)."""
     run = make_run()
 
-    def make(frames=10, cameras=None, chunk=480, smoke='method = "puffs"', more=""):
+    def make(frames=10, cameras=None, chunk=480, smoke="enabled = false", more=""):
         path = tmp_path / "scene.toml"
         text = f'run = "run"\n[time]\nframes = {frames}\nshutter = 0.0\n[smoke]\n{smoke}\n'
         text += f"[render]\nchunk = {chunk}\n{more}\n"
@@ -109,7 +109,7 @@ def test_cameras_that_give_each_other_pictures_share_tasks(make_shot):
 
 def test_a_flow_is_solved_once_for_all_cameras_that_share_it(make_shot, monkeypatch):
     cameras = {"drone": "", "other": "1"}
-    for smoke, bakes in (('method = "flow"', 1), ('method = "puffs"', 0), ("enabled = false", 0)):
+    for smoke, bakes in (('method = "flow"', 1), ('method = "preview"', 1), ("enabled = false", 0)):
         shot = make_shot(2, cameras, smoke=smoke)
         made = plan.make_job(shot, shot.settings.path)
         assert len(made.numbers("bake")) == bakes

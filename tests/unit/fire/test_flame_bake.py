@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from firetwin.scene.fire import flame_volume
 from firetwin_core import volume
+from firetwin_core.flames import FlameLight, FlameShape, FlameVolume, write_flames
 from planck import EMPTY, EVERY, PLANCK
 from plumes import read
 
@@ -16,11 +17,11 @@ def flames(fade=(1e5, 2e5), origin=(1000.0, -2000.0, 300.0), heights=6.0):
     cells = 32
     length = np.zeros((cells, cells), np.float32)
     length[14:18] = heights
-    return volume.FlameVolume(
+    return FlameVolume(
         squares=[(length, np.full_like(length, origin[2]), (origin[0] - 12.0, origin[1] - 12.0), 0.75)],
         spindles=np.empty((0, 6)),
-        shape=volume.FlameShape(wind=(0.0, 1.0)),
-        light=volume.FlameLight(
+        shape=FlameShape(wind=(0.0, 1.0)),
+        light=FlameLight(
             visible=flame_volume.visible(1.0),
             extinction=0.8,
             soot=0.01,
@@ -42,7 +43,7 @@ def flames(fade=(1e5, 2e5), origin=(1000.0, -2000.0, 300.0), heights=6.0):
 def written(tmp_path):
     """Flames, the summary of their file, and indices (n, 3) and values (n, 3) of its voxels."""
     burning = flames()
-    summary = volume.write_flames(tmp_path / "flames.vdb", burning, VOXEL)
+    summary = write_flames(tmp_path / "flames.vdb", burning, VOXEL)
     grids = read(tmp_path / "flames.vdb")
     extinction, low = grids["flames"]
     assert all(np.array_equal(low, grids[name][1]) for name in ("infrared", "temperature"))
@@ -66,7 +67,7 @@ def test_voxels_hold_the_field_at_their_centres(written):
 def test_voxels_radiate_the_power_of_the_field(tmp_path, height):
     """Radiance of all wavelengths along parallel rays through the voxels, against the march."""
     burning, voxel = flames(heights=height), height / 36.0
-    volume.write_flames(tmp_path / "flames.vdb", burning, voxel)
+    write_flames(tmp_path / "flames.vdb", burning, voxel)
     grids = read(tmp_path / "flames.vdb")
     (dim, low), (kelvin, _) = grids["infrared"], grids["temperature"]
     kept = np.exp(-np.asarray(dim, np.float64) * voxel)
@@ -94,13 +95,13 @@ def test_no_flame_is_left_out(written):
 
 
 def test_flames_fade_out_with_the_distance(tmp_path):
-    near = volume.write_flames(tmp_path / "near.vdb", flames(fade=(3.0, 6.0)), VOXEL)
-    full = volume.write_flames(tmp_path / "full.vdb", flames(), VOXEL)
-    none = volume.write_flames(tmp_path / "none.vdb", flames(heights=0.0), VOXEL)
+    near = write_flames(tmp_path / "near.vdb", flames(fade=(3.0, 6.0)), VOXEL)
+    full = write_flames(tmp_path / "full.vdb", flames(), VOXEL)
+    none = write_flames(tmp_path / "none.vdb", flames(heights=0.0), VOXEL)
     assert 0 < near.active_voxels < 0.8 * full.active_voxels
     assert none.active_voxels == 0
 
 
 def test_voxels_of_no_size_are_refused(tmp_path):
     with pytest.raises(ValueError, match="voxel"):
-        volume.write_flames(tmp_path / "flames.vdb", flames(), 0.0)
+        write_flames(tmp_path / "flames.vdb", flames(), 0.0)

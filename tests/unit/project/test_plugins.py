@@ -50,7 +50,7 @@ import numpy as np
 from firetwin.smoke.sources import Source, VolumeLayer
 from firetwin_core import volume
 
-METHOD = {"help": "soot of a scene", "history": "max_age", "solved": False}
+METHOD = "soot of a scene"
 
 class Soot(Source):
     name = "soot"

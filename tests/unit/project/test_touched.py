@@ -26,9 +26,8 @@ def near(changed, limit=3):
         ("tests/unit/run/test_geo.py", "unit/run/test_geo.py", 0),
         ("addon/render/store.py", "unit/render/test_store.py", 1),
         ("addon/smoke/domains.py", "blender/smoke/test_smoke_flow.py", 2),
-        ("addon/smoke/domains.py", "unit/smoke/test_smoke_mass.py", 3),
         ("addon/shot/cameras/track_csv.py", "unit/cameras/test_track.py", 3),  # by the module that imports it
-        ("tests/helpers/plumes.py", "unit/smoke/test_volume.py", 1),
+        ("tests/helpers/plumes.py", "unit/smoke/test_volume_dense.py", 1),
         ("tests/helpers/small_run.py", "unit/terrain/test_elevation.py", 1),
         ("tests/unit/conftest.py", "unit/run/test_geo.py", 3),
         ("cpp/flow/solver.cpp", "unit/smoke/test_flow.py", 2),

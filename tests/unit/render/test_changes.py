@@ -57,18 +57,18 @@ def test_what_changed_in_pictures(tmp_path):
     now = {
         "versions": {"firetwin": "2", "blender": "4.5"},
         "sources": {"render/layers.py": "new"},
-        "settings": {"smoke": {"max_age": 9.0, "detail": 1.0}, "samples": 3},
+        "settings": {"smoke": {"cloud_base": 9.0, "detail": 1.0}, "samples": 3},
         "run": {"heat_flux": "0"},
     }
     before = now | {
         "versions": {"firetwin": "1", "blender": "4.5"},
         "sources": {},
-        "settings": {"smoke": {"max_age": 8.0, "detail": 1.0}},
+        "settings": {"smoke": {"cloud_base": 8.0, "detail": 1.0}},
     }
     first = Picture("drone", 1, "rgb")
     with Store(tmp_path, create=True) as store:
         store.add(before, {path: {} for path in first.files()})
         pictures = [first, replace(first, frame=2), replace(first, name="depth")]
         differing = changes.of_pictures(store, pictures, {("drone", "rgb"): now, ("drone", "depth"): now})
-    assert differing == ["version of Firetwin", "code", "settings (samples and smoke.max_age)"]
+    assert differing == ["version of Firetwin", "code", "settings (samples and smoke.cloud_base)"]
     assert changes.of_picture(now, now) == []

@@ -80,8 +80,7 @@ def test_readers_of_sequences_find_the_frames(tmp_path, view):
         ({}, ""),
         ({"enabled": False, "draw": "volume"}, ""),
         ({"draw": "volume"}, 'comp with smoke.draw = "volume"'),
-        ({"method": "puffs"}, 'comp with smoke.method = "puffs"'),
-        ({"lighting": "traced"}, 'comp with smoke.lighting = "traced"'),
+        ({"method": "preview"}, ""),
     ],
 )
 def test_layers_need_smoke_that_is_marched(smoke, words):

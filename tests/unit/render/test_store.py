@@ -245,7 +245,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
     assert changes(render=s.Render(resolution=(64, 36))) == everything
     assert changes(render=s.Render(samples=7)) == showing("grain") == lit >= {"rgb", "thermal", "edl"}
     assert changes(light=sections.Light(haze=0.5)) == lit
-    assert changes(smoke=sections.SmokeSettings(max_age=9.0)) == smoky >= lit | {"masks", "nerfstudio"}
+    assert changes(smoke=sections.SmokeSettings(cloud_base=9.0)) == smoky >= lit | {"masks", "nerfstudio"}
     assert changes(render=s.Render(thermal_high=900.0)) == showing("thermal") >= {"overlay", "data"}
     assert changes(render=s.Render(passes=("rgb",), video=False, device="cpu")) == {"pose"}
     # Built objects and their detail depend on the filmed frames.

@@ -420,26 +420,62 @@ def test_former_names_of_sections_are_read_and_noted(tmp_path):
         "2:2: [ground] is called [terrain] now; the old name is read in this version only",
         "5:2: [places] is called [labels] now; the old name is read in this version only",
     ]
-    path.write_text("[render]\nskip = false\n")
+    path.write_text("[tiles]\nerror = 3.0\n")
     settings = scene_file.read(path)
-    assert not settings.render.cull
+    now = "max_screen_space_error"
+    assert getattr(settings.tiles, now) == 3.0
     assert settings.notes == (
-        f"{path}:2:1: render.skip is called render.cull now; the old name is read in this version only",
+        f"{path}:2:1: tiles.error is called tiles.{now} now; the old name is read in this version only",
     )
-    path.write_text("[render]\nskip = false\ncull = true\n")
-    with pytest.raises(scene_file.InputError, match=r":3:1: render\.skip is the former name of render\.cull"):
+    path.write_text(f"[tiles]\nerror = 3.0\n{now} = 3.0\n")
+    with pytest.raises(
+        scene_file.InputError, match=rf":3:1: tiles\.error is the former name of tiles\.{now}"
+    ):
         scene_file.read(path)
     path.write_text("[ground]\napron = -1.0\n")
     with pytest.raises(scene_file.InputError, match=r":2:1: terrain\.apron"):
         scene_file.read(path)
 
 
+REMOVED_TEXT = [
+    ("fire", "emitters", '"front"', '"cells"'),
+    ("fire", "volume_voxel", "0.5", "0.2"),
+    ("render", "cull", "true", "false"),
+    ("render", "skip", "true", "false"),
+    ("smoke", "complete", "false", "true"),
+    ("smoke", "extinction", "0.0", "0.02"),
+    ("smoke", "lighting", '"solved"', '"traced"'),
+    ("smoke", "max_age", "5400.0", "60"),
+]
+
+
+@pytest.mark.parametrize(("section", "key", "default", "other"), REMOVED_TEXT)
+def test_a_removed_key_is_noted_at_its_default_and_an_error_otherwise(tmp_path, section, key, default, other):
+    path = tmp_path / "scene.toml"
+    path.write_text(f"seed = 3\n[{section}]\n{key} = {default}\n")
+    found = scene_file.read(path)
+    (note,) = found.notes
+    assert note.startswith(f"{path}:3:1: {section}.{key} was removed: ")
+    path.write_text("seed = 3\n")
+    assert replace(found, notes=()) == scene_file.read(path)
+    path.write_text(f"[{section}]\n{key} = {other}\n")
+    gone = rf":2:1: {section}\.{key} was removed: .*; delete the line"
+    with pytest.raises(scene_file.InputError, match=gone):
+        scene_file.read(path)
+
+
+def test_puffs_are_read_as_the_preview(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text('[smoke]\nmethod = "puffs"\n')
+    found = scene_file.read(path)
+    assert found.smoke.method == "preview"
+    assert '2:1: smoke.method = "puffs" is called "preview" now' in found.notes[0]
+
+
 FORMER_TEXT = """[ground]
 stand = "tiles"
 [places]
 enabled = true
-[render]
-skip = false
 [tiles]
 sources = ["set"]
 error = 3.0
@@ -449,8 +485,6 @@ PRESENT_TEXT = """[terrain]
 height_source = "tiles"
 [labels]
 enabled = true
-[render]
-cull = false
 [tiles]
 sources = ["set"]
 max_screen_space_error = 3.0
@@ -469,10 +503,10 @@ def test_every_former_name_and_value_gives_equal_settings_and_one_note(tmp_path)
         assert replace(former, notes=()) == present
         assert not present.notes
         assert len(former.notes) == len(FORMER) + len(FORMER_KEYS) + 1
-        assert former.notes[-1].startswith(f'{path}:10:1: tiles.vegetation = "{then}" is called "{now}" now')
+        assert former.notes[-1].startswith(f'{path}:8:1: tiles.vegetation = "{then}" is called "{now}" now')
     known = {
         *(name for name in FORMER if f"[{name}]" in FORMER_TEXT),
         *(each for each in FORMER_KEYS if f"\n{each[1]} = " in FORMER_TEXT),
     }
     assert known == {*FORMER, *FORMER_KEYS}
-    assert set(FORMER_VALUES) == {("tiles", "vegetation")}
+    assert set(FORMER_VALUES) == {("smoke", "method"), ("tiles", "vegetation")}

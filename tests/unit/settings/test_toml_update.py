@@ -165,17 +165,20 @@ def test_any_scene_file_saved_over_any_other_reads_back(before, after):
     assert toml_update.updated(found, after) == found
 
 
-@pytest.mark.parametrize("cull", [False, True])
-def test_former_names_give_way_to_present_ones_in_their_places(cull):
-    text = "# Ours\n[ground]\napron = 7000.0 # far\n[render]\nskip = false # for comparison\n"
+@pytest.mark.parametrize("enabled", [False, True])
+def test_former_names_give_way_to_present_ones_in_their_places(enabled):
+    text = "# Ours\n[ground]\napron = 7000.0 # far\n[places]\nenabled = false # for comparison\n"
     found = read(text)
-    wanted = dataclasses.replace(found, render=dataclasses.replace(found.render, cull=cull))
-    expected = text.replace("[ground]", "[terrain]").replace("skip = false", f"cull = {str(cull).lower()}")
+    wanted = dataclasses.replace(found, labels=dataclasses.replace(found.labels, enabled=enabled))
+    expected = text.replace("[ground]", "[terrain]").replace("[places]", "[labels]")
+    expected = expected.replace("= false", f"= {str(enabled).lower()}")
     assert toml_update.updated(text, wanted) == expected
     assert read(expected).notes == ()
 
 
 def test_several_former_names_of_a_line_and_former_values_give_way_too():
+    text = '[smoke]\nmethod = "puffs" # quick\n'
+    assert toml_update.updated(text, read(text)) == '[smoke]\nmethod = "preview" # quick\n'
     text = 'tiles = { error = 3.0, trees = "ours where it burns", sources = ["a"] } # ours\n'
     found = read(text)
     expected = (

@@ -1,8 +1,13 @@
-"""The air that smoke rises into: stable, clear, and as warm aloft by night as by day."""
+"""The air that smoke rises into: stable, clear, and as warm aloft by night as by day; moments of a shot."""
+
+from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from firetwin.shot import frames
+from firetwin.shot.sections import Time
 from firetwin.smoke import atmosphere
+from firetwin_core import run as runs
 
 
 @pytest.mark.parametrize("sun", [-40.0, -4.0, 0.0, 50.0])
@@ -29,3 +34,12 @@ def test_air_holds_the_water_that_tables_say():
     held = atmosphere._saturation(celsius + 273.15, np.full(3, 1e5))
     mixing = held / (1.0 - held)
     assert mixing == pytest.approx(np.array([3.84, 14.95, 27.69]) * 1e-3, rel=0.01)
+
+
+def test_a_still_has_one_moment(make_run):
+    run = runs.open(make_run())
+    start = datetime(2014, 9, 17, 4, 46, tzinfo=UTC)
+    still = frames.resolve(Time(start=start, frames=1), run)
+    assert (still.first, still.last) == (60.0, 60.0)
+    film = frames.resolve(Time(start=start, frames=2), run)
+    assert (film.first, film.last) == (60.0, 120.0)

@@ -88,6 +88,27 @@ def test_what_is_within_the_tolerance_is_left_out(tmp_path, field, tolerance):
         np.testing.assert_array_equal(found, kept[inside])
 
 
+def test_dense_arrays_come_back(tmp_path):
+    random = np.random.default_rng(1)
+    dense = random.random((9, 12, 20), dtype=np.float32)
+    dense[dense < 0.5] = 0.0
+    path = tmp_path / "dense.vdb"
+    frame = volume.write(path, {"density": dense}, 10.0, origin=(5.0, 6.0, 7.0), half=False)
+    assert frame.mass == pytest.approx(dense.sum(dtype=np.float64) * 1000.0, rel=1e-6)
+    assert frame.active_voxels == np.count_nonzero(dense)
+    found, low = read(path)["density"]
+    inside = tuple(slice(a, a + n) for a, n in zip(low, found.shape, strict=True))
+    assert np.array_equal(found, dense[inside])
+    assert frame.bounds[0] == pytest.approx(np.array([5.0, 6.0, 7.0]) + 10.0 * (low - 0.5))
+
+
+def test_half_grids_refuse_what_they_cannot_hold(tmp_path):
+    field = np.full((2, 2, 2), 70_000.0, np.float32)
+    with pytest.raises(ValueError, match="65504"):
+        volume.write(tmp_path / "flux.vdb", {"heat": field}, 1.0)
+    volume.write(tmp_path / "flux.vdb", {"heat": field}, 1.0, half=False)
+
+
 def test_every_half_float_is_rounded_to_the_nearest(tmp_path):
     """Values on, between and half way between half floats, against NumPy's."""
     bits = np.arange(1, 0x7C00 - 1, dtype=np.uint16)

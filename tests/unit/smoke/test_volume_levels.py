@@ -3,7 +3,7 @@
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin_core import Error, InputError, geo, run, volume
+from firetwin_core import Error, InputError, geo, lod, run, volume
 from plumes import read
 from small_run import NT, NX, NY, RUN_TOML, small_fields
 
@@ -110,7 +110,7 @@ def test_no_smoke_under_the_ground_or_over_the_top(tmp_path):
     assert kelvin == pytest.approx(288.15 - 0.0065 * height[expected & sure], abs=0.2)
 
 
-def test_grids_and_units_are_those_of_puffs(tmp_path):
+def test_every_grid_has_its_unit(tmp_path):
     path = tmp_path / "lit.vdb"
     smoke = np.full(heights().shape, 1e-6, np.float32)
     kelvin = np.full(heights().shape, 333.0, np.float32)
@@ -122,6 +122,52 @@ def test_grids_and_units_are_those_of_puffs(tmp_path):
     assert grids["size"][0].max() == pytest.approx(0.364, abs=0.002)
     assert grids["glow"][0].max() > 0.1
     assert frame.voxels > 6 * frame.active_voxels
+
+
+def test_flames_make_glow_that_falls_off(tmp_path):
+    path = tmp_path / "lit.vdb"
+    flame = np.array([[0.0, 0.0, 1500.0]])
+    smoke = np.full(heights().shape, 1e-6, np.float32)
+    write(path, smoke, 100.0, flame_position=flame, flame_power=[1.0e9])
+    grids = read(path)
+    glow, low = grids["glow"]
+    voxel = np.argwhere(glow > 0.0)
+    distance = np.linalg.norm((voxel + low) * 100.0 - flame, axis=1)
+    expected = np.exp(-distance / 1100.0) / (1.0 + (distance / 250.0) ** 2)
+    far = distance > 700.0  # nearer, the nodes are too far apart to follow the peak
+    assert glow[tuple(voxel[far].T)] == pytest.approx(expected[far], abs=0.02)
+    assert 0.3 < glow.max() <= 1.0
+    with pytest.raises(Error, match="too small"):
+        write(path, 0.0 * smoke, 1e-4, flame_position=[[1.0e6, 0.0, 0.0]], flame_power=[1.0e9])
+
+
+def test_culled_smoke_is_counted_and_the_rest_stays(tmp_path):
+    smoke = np.full(heights().shape, 1e-6, np.float32)
+    whole = write(tmp_path / "whole.vdb", smoke)
+    north = np.column_stack([[1, 0, 0], [0, 0, 1], [0, -1, 0]]).astype(float)
+    view = lod.ViewSet([(2000.0, -9000.0, 1500.0)], north, np.tan((0.15, 0.1)), sun=(0.0, 0.6, 0.8))
+    part = write(tmp_path / "part.vdb", smoke, views=view)
+    assert 0.05 * whole.active_voxels < part.active_voxels < 0.8 * whole.active_voxels
+    assert part.mass + part.culled_mass == pytest.approx(whole.mass, rel=1e-9)
+    assert part.bytes < whole.bytes
+    everything, some = read(tmp_path / "whole.vdb"), read(tmp_path / "part.vdb")
+    there = some["dilution"][0] > 0.0
+    for name, (values, low) in some.items():
+        full, corner = everything[name]
+        same = full[tuple(slice(o, o + n) for o, n in zip(low - corner, values.shape, strict=True))]
+        assert np.array_equal(values[there], same[there])
+
+
+def test_only_requested_grids_are_written(tmp_path):
+    path, smoke = tmp_path / "some.vdb", np.full(heights().shape, 1e-6, np.float32)
+    lit = {"flame_position": [[0.0, 0.0, 1500.0]], "flame_power": [1.0e9]}
+    frame = write(path, smoke, grids=["dilution", "glow"], **lit)
+    assert set(read(path)) == {"dilution", "glow"}
+    assert frame.voxels == 2 * frame.active_voxels
+    write(path, smoke, grids=["dilution", "glow"])
+    assert set(read(path)) == {"dilution"}
+    with pytest.raises(ValueError, match="choose from density"):
+        write(path, smoke, grids=["smoke"])
 
 
 def test_gaps_and_negative_smoke_count_as_none(tmp_path):

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "volume/flame_field.hpp"
+#include "flames/field.hpp"
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace firetwin::volume {
+namespace firetwin::flames {
 
 /// Light and heat of flames, by heat from 0 (coolest) to 1 (hottest).
 struct FlameLight {
@@ -92,4 +92,4 @@ private:
   float at_, end_;
 };
 
-} // namespace firetwin::volume
+} // namespace firetwin::flames

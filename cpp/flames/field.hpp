@@ -1,14 +1,14 @@
 #pragma once
 
 #include "base/vector.hpp"
-#include "volume/flame_tiles.hpp"
-#include "volume/lattice_noise.hpp"
+#include "flames/lattice_noise.hpp"
+#include "flames/tiles.hpp"
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-namespace firetwin::volume {
+namespace firetwin::flames {
 
 /// Constants of the shape of flames.
 struct FlameShape {
@@ -87,4 +87,4 @@ private:
   std::array<Octave, 2> fuel_;
 };
 
-} // namespace firetwin::volume
+} // namespace firetwin::flames

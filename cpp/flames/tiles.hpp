@@ -1,14 +1,14 @@
 #pragma once
 
+#include "base/simd.hpp"
 #include "base/vector.hpp"
-#include "volume/lanes.hpp"
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace firetwin::volume {
+namespace firetwin::flames {
 
 /// Flame length at one time, and the ground, on a square of the ground.
 struct FlameSquare {
@@ -109,4 +109,4 @@ private:
   bool any_ = false;
 };
 
-} // namespace firetwin::volume
+} // namespace firetwin::flames

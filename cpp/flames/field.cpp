@@ -1,4 +1,4 @@
-#include "volume/flame_field.hpp"
+#include "flames/field.hpp"
 
 #include "base/clones.hpp"
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace firetwin::volume {
+namespace firetwin::flames {
 namespace {
 
 constexpr double largest_eddy = 10.0;  // m, size of the largest eddies
@@ -369,4 +369,4 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   }
 }
 
-} // namespace firetwin::volume
+} // namespace firetwin::flames

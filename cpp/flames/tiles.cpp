@@ -1,11 +1,11 @@
-#include "volume/flame_tiles.hpp"
+#include "flames/tiles.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-namespace firetwin::volume {
+namespace firetwin::flames {
 namespace {
 
 constexpr float spindle_cell = 8.0F; // m
@@ -338,4 +338,4 @@ std::span<const std::uint32_t> FlameTiles::spindles_at(float x, float y) const {
   return std::span(numbers_).subspan(starts_[cell], starts_[cell + 1] - starts_[cell]);
 }
 
-} // namespace firetwin::volume
+} // namespace firetwin::flames

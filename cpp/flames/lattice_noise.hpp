@@ -1,13 +1,13 @@
 #pragma once
 
-#include "volume/lanes.hpp"
+#include "base/simd.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 
 /// Value noise at eight points at once, on a lattice hashed in place so that it never repeats.
-namespace firetwin::volume {
+namespace firetwin::flames {
 
 using LaneIndex = Simd<std::int32_t, lane_count>;
 using LaneHash = Simd<std::uint32_t, lane_count>;
@@ -97,4 +97,4 @@ __attribute__((always_inline)) inline void lattice_noise(const Lanes& x, const L
   }
 }
 
-} // namespace firetwin::volume
+} // namespace firetwin::flames

@@ -1,4 +1,4 @@
-#include "volume/flames.hpp"
+#include "flames/flames.hpp"
 
 #include "base/smoothstep.hpp"
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace firetwin::volume {
+namespace firetwin::flames {
 namespace {
 
 constexpr float least_step = 0.02F, most_step = 0.5F; // m
@@ -178,4 +178,4 @@ void FlameRay::fill(float from, float step, FlameSlab& slab) const {
   }
 }
 
-} // namespace firetwin::volume
+} // namespace firetwin::flames
