@@ -17,6 +17,10 @@ light groups.
 
 from __future__ import annotations
 
+from typing import Any
+
+from numpy.typing import NDArray
+
 from ..shot.passes import MarchedPass
 from . import rgb
 
@@ -28,4 +32,27 @@ PASS = MarchedPass(
     files=("exr",),
     aspects=rgb.PASS.aspects,
     code=("passes/rgb.py",),
+    light_groups=("Firetwin Sun", "Firetwin Firelight"),
+    aovs=("Firetwin Glow",),
+    bloom=True,
+    bits=16,
+    comments="R, G, B = solid + fire + smoke; solid = light_sun + light_sky + light_fire; "
+    "bloom and labels are not in R, G, B",
 )
+
+
+def march(eye: Any, _frame: int) -> dict[str, NDArray]:
+    """Return the layers, and the alphas."""
+    sun, sky, fire = eye.split_light()
+    text = {} if eye.text is None else {"labels.": eye.text[..., :3], "labels.A": eye.text[..., 3:]}
+    return {
+        "": eye.composed.picture,
+        "A": eye.solid_share[..., None],
+        "fire.": eye.composed.fire,
+        "smoke.": eye.composed.smoke,
+        "smoke.A": eye.smoke_opacity[..., None],
+        "solid.": eye.composed.solid,
+        "light_sun.": sun,
+        "light_sky.": sky,
+        "light_fire.": fire,
+    } | text

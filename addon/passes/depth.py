@@ -8,9 +8,11 @@ Blender. A panorama has no axis: both channels are the distance from mid-eye.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from firetwin_core import sensor
+from numpy.typing import NDArray
 
 from ..shot import exr_tags
 from ..shot.cameras import pixel_rays
@@ -29,8 +31,14 @@ PASS = RenderedPass(
     samples=1,
     pixel_centres=True,
     geometry_only=True,
+    shares_rays=True,
     aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "stations"}),
 )
+
+
+def march(eye: Any, _frame: int) -> NDArray:
+    """Return the planar depth (h, w), m, at pixel centres."""
+    return eye.channels["Depth"][..., 0]
 
 
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:

@@ -25,6 +25,7 @@ floats, exact only for integers up to 2048, so `masks` rejects EEVEE.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from firetwin_core import sensor
@@ -92,6 +93,11 @@ def classes(pixels: NDArray) -> tuple[NDArray, NDArray, NDArray, NDArray]:
     surface = np.where(exact, code % 8, SMOKE)
     kind = np.where(clear > 1.0 - HIDES, surface, SMOKE)
     return kind, low + 4096.0 * (code // 8), clear, surface
+
+
+def march(eye: Any, _frame: int) -> NDArray:
+    """Return the pixels (h, w, 3) of `blender.nodes.mask_switch`, with flames and smoke."""
+    return eye.masks(eye.channels["Combined"])
 
 
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:

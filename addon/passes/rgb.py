@@ -14,6 +14,7 @@ PASS = RenderedPass(
     channels="colour",
     bits=16,
     film=True,
+    shares_rays=True,
     aspects=frozenset(
         {
             "time",

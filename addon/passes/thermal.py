@@ -20,9 +20,11 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from firetwin_core import sensor
+from numpy.typing import NDArray
 
 from ..imaging import colour_bar
 from ..shot import exr_tags
@@ -40,6 +42,7 @@ PASS = RenderedPass(
     excludes=("lamps",),
     samples=4,
     through_smoke=True,
+    shares_rays=True,
     film=True,
     aspects=frozenset(
         {
@@ -60,6 +63,11 @@ PASS = RenderedPass(
 
 _COLD = 45.0  # K below the coldest ground at which the palette ends, for the sky (by eye)
 KNEE = 10.0  # K above the lower limit, from which the palette is logarithmic: relief of cold ground is seen
+
+
+def march(eye: Any, frame: int) -> NDArray:
+    """Return the radiance (h, w), W m-2 sr-1."""
+    return eye.radiance(frame)
 
 
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:

@@ -55,8 +55,6 @@ class Surfaces:
         (h, w) share of rays that met a surface nearer than these flames.
     rays
         Rays (samples) per pixel.
-    sun, firelight
-        (h, w, 3) shares of `noisy` from the sun, and from flames on surfaces and embers; None: not rendered.
     """
 
     colour: Array
@@ -70,8 +68,6 @@ class Surfaces:
     flame_distance: Array
     before: Array
     rays: int
-    sun: Array | None = None
-    firelight: Array | None = None
 
 
 def taps(surfaces: Surfaces) -> Array:
@@ -159,12 +155,16 @@ def solid_share(surfaces: Surfaces) -> Array:
     return np.where(_is_unknown(surfaces), 1.0, np.clip(surfaces.solid, 0.0, 1.0)).astype(np.float32)
 
 
-def split_light(surfaces: Surfaces, solid: Array) -> tuple[Array, Array, Array]:
-    """Split the layer of solid surfaces into light of the sun, sky and fire, which add up to it."""
-    assert surfaces.sun is not None  # `comp` has its light groups rendered
-    assert surfaces.firelight is not None
+def split_light(surfaces: Surfaces, solid: Array, sun: Array, firelight: Array) -> tuple[Array, Array, Array]:
+    """Split the layer of solid surfaces into light of the sun, sky and fire, which add up to it.
+
+    Parameters
+    ----------
+    sun, firelight
+        (h, w, 3) shares of the noisy light from the sun, and from flames on surfaces and embers.
+    """
     noisy = np.maximum(blur(surfaces.noisy - surfaces.fire), 1.0e-6)
-    sun, fire = (np.clip(blur(each) / noisy, 0.0, 1.0) for each in (surfaces.sun, surfaces.firelight))
+    sun, fire = (np.clip(blur(each) / noisy, 0.0, 1.0) for each in (sun, firelight))
     most = np.maximum(sun + fire, 1.0)
     sun, fire = solid * sun / most, solid * fire / most
     return sun, solid - sun - fire, fire

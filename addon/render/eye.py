@@ -56,7 +56,7 @@ class Eye:
     flame_distance
         Their distance in each cell of the picture (see `flame_distance`), m; None if surfaces do not know it.
     parts
-        Compute the `layers` of the picture.
+        Keep the parts of the picture.
     """
 
     def __init__(
@@ -89,8 +89,10 @@ class Eye:
         self.parts = parts
         self.has_smoke_or_flames = np.ones(self.shape, bool)
         """Pixels (h, w) whose infrared rays are marched; a caller that knows more can set it."""
-        self.layers: dict[str, Array] = {}
-        """Layers of the picture (see `passes.comp`), once `picture` has computed them."""
+        # Parts of the picture for passes (see `shot.passes.MarchedPass`), once `picture` has computed them.
+        self.composed: composite.Layers
+        self.solid_share = self.smoke_opacity = self.clear
+        self.text: Array | None = None
 
     def picture(self, text: Channels | None = None) -> Array:
         """Compute the radiance (h, w, 3) of surfaces, smoke, flames and `text`, which was rendered alone."""
@@ -102,14 +104,17 @@ class Eye:
         composed = composite.compose(rendered, at, marched, white if self.flames else None)
         if self.flames:
             composed = composite.soften_highlights(composed, _WHITE * white)
+        self.text = None if text is None else self._text_layer(rendered, at, text)
         if self.parts:
-            self.layers = _layers(composed, rendered, composite.smoke_opacity(rendered, at, marched))
-        if text is None:
-            return composed.picture
-        written = self._text_layer(rendered, at, text)
-        if self.parts:
-            self.layers |= {"labels.": written[..., :3], "labels.A": written[..., 3:]}
-        return composite.place_over(composed.picture, written)
+            self.composed, self.solid_share = composed, composite.solid_share(rendered)
+            self.smoke_opacity = composite.smoke_opacity(rendered, at, marched)
+        return composed.picture if self.text is None else composite.place_over(composed.picture, self.text)
+
+    def split_light(self) -> tuple[Array, Array, Array]:
+        """Split the solid surfaces of the picture into light (h, w, 3) of the sun, the sky and fire."""
+        sun = self.channels[f"Combined_{nodes.SUN}"]
+        firelight = self.channels[f"Combined_{nodes.FIRELIGHT}"] + self.channels[nodes.GLOW]
+        return composite.split_light(self._surfaces(), self.composed.solid, sun, firelight)
 
     def _march_taps(self, at: Array, parts: bool, places: Sequence[tuple[float, float]] = _PLACES) -> Array:
         """March rays through `places` of each pixel to the taps (h, w, 3), m, and return their mean."""
@@ -276,25 +281,7 @@ class Eye:
             flame_distance=self._flame_distance,
             before=np.clip(channels[flame_gaps.AOV][..., 0], 0.0, 1.0),
             rays=self.stage.scene.cycles.samples,
-            sun=channels[f"Combined_{nodes.SUN}"] if self.parts else None,
-            firelight=channels[f"Combined_{nodes.FIRELIGHT}"] + channels[nodes.GLOW] if self.parts else None,
         )
-
-
-def _layers(composed: composite.Layers, rendered: composite.Surfaces, opacity: Array) -> dict[str, Array]:
-    """Return the layers of a picture (h, w, 3), and the two alphas (h, w, 1), by their name in the file."""
-    sun, sky, fire = composite.split_light(rendered, composed.solid)
-    return {
-        "": composed.picture,
-        "A": composite.solid_share(rendered)[..., None],
-        "fire.": composed.fire,
-        "smoke.": composed.smoke,
-        "smoke.A": opacity[..., None],
-        "solid.": composed.solid,
-        "light_sun.": sun,
-        "light_sky.": sky,
-        "light_fire.": fire,
-    }
 
 
 def _marches(

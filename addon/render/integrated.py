@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
@@ -34,16 +35,9 @@ from . import flame_distance, frame_cost, layers, motion_blur, rays, surfaces, t
 from .eye import Eye
 from .picture import Picture
 
-MARCHED_PASSES = ("rgb", "thermal", "depth")
-"""Passes that share one render, in the view layer of the first of them that is requested."""
-
 _AOVS = {flame_gaps.AOV: "VALUE", nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
 _PICTURE = "integrated picture"
 _BLOOM = {"Threshold": 2.5, "Maximum": 20.0}  # radiance times 2^exposure; text, of 2, has no bloom
-_LAYERS = (
-    "R, G, B = solid + fire + smoke; solid = light_sun + light_sky + light_fire; "
-    "bloom and labels are not in R, G, B"
-)
 _OUTLINE = 640  # columns of a picture whose detail of flames is enough to find the pixels that show them
 _CLOSE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share of the picture
 
@@ -76,27 +70,36 @@ class IntegratedRenderer:
         return lambda pictures: self._render({picture.name: picture for picture in pictures}, smoke, part)
 
     def _render(self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
-        if "comp" in pictures:
-            _split_light(self.scene)
-            shown = pictures["comp"]
-            pictures.setdefault("rgb", Picture(shown.camera, shown.frame, "rgb"))
+        marched = _marched(pictures)
+        for each in marched:
+            _add_quantities(self.scene, each)
+            pictures.setdefault("rgb", replace(pictures[each.name], name="rgb"))
         if self.shadow and "rgb" in pictures:
             self.shadow.cast(self.stage, smoke)
-        marched = {name: pictures[name] for name in (*MARCHED_PASSES, "comp") if name in pictures}
-        if marched:
-            self._render_marched_passes(marched, smoke, part)
-        others = [picture for name, picture in pictures.items() if name not in marched]
+        shared = [each for each in _shared() if each.name in pictures]
+        if shared:
+            self._render_shared_rays(shared, marched, pictures, smoke, part)
+        done = {each.name for each in (*shared, *marched)}
+        others = [picture for name, picture in pictures.items() if name not in done]
         if others:
             self._render_centre_rays(others, smoke, part)
 
-    def _render_marched_passes(
-        self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path
+    def _render_shared_rays(
+        self,
+        shared: list[passes.RenderedPass],
+        marched: list[passes.MarchedPass],
+        pictures: dict[str, Picture],
+        smoke: Sequence[volume.Bricks],
+        part: Path,
     ) -> None:
-        first = next(iter(pictures))
-        flames, outline = self._flames(pictures[first].frame)
+        """Render passes that share rays in the layer of the first one, and marched passes by them."""
+        first = shared[0].name
+        frame = pictures[first].frame
+        infrared = any(each.shading == "radiance" and not each.geometry_only for each in shared)
+        flames, outline = self._flames(frame)
         distance = self._measure_flames(outline) if "rgb" in pictures else None
         with self.cost.part(frame_cost.SURFACES):
-            rendered = surfaces.render(self.scene, [first], part, infrared="thermal" in pictures)
+            rendered = surfaces.render(self.scene, [first], part, infrared)
             wanted = self.has_text and "rgb" in pictures
             text = text_layer.render(self.scene, part) if wanted else {}
         eyes = [
@@ -109,24 +112,21 @@ class IntegratedRenderer:
                 flames,
                 outline,
                 flame_distance=distance,
-                parts="comp" in pictures,
+                parts=bool(marched),
             )
             for number, found in rendered
         ]
         if "rgb" in pictures:
             with self.cost.part(frame_cost.MARCH):
-                light = [self._blurred(eye, text.get(eye.number), pictures["rgb"].frame) for eye in eyes]
-            bloom = self._write_visible(light, pictures["rgb"], part, "comp" in pictures)
-            self._check_view(eyes[0], pictures["rgb"].frame)
-            if "comp" in pictures:
-                self._write_layers(eyes, bloom, pictures["comp"], part)
-        if "thermal" in pictures:
+                light = [self._blurred(eye, text.get(eye.number), frame) for eye in eyes]
+            bloom = self._write_visible(light, pictures["rgb"], part, any(each.bloom for each in marched))
+            self._check_view(eyes[0], frame)
+            for each in marched:
+                self._write_channels(each, eyes, bloom if each.bloom else [], pictures[each.name], part)
+        for name in (each.name for each in shared if each.name != "rgb"):
             with self.cost.part(frame_cost.MARCH):
-                heat = [eye.radiance(pictures["thermal"].frame) for eye in eyes]
-            self._write(part, pictures["thermal"], np.concatenate(heat))
-        if "depth" in pictures:
-            depth = [eye.channels["Depth"][..., 0] for eye in eyes]
-            self._write(part, pictures["depth"], np.concatenate(depth))
+                halves = [passes.modules()[name].march(eye, frame) for eye in eyes]
+            self._write(part, pictures[name], np.concatenate(halves))
 
     def _flames(self, frame: int) -> tuple[FlameVolume | None, FlameVolume | None]:
         """Return the flames of a frame that are drawn as a volume, and the same with detail for outlines."""
@@ -201,34 +201,40 @@ class IntegratedRenderer:
         with self.cost.part(frame_cost.SURFACES):
             eyes = surfaces.render(self.scene, [each.name for each in pictures], part, centres=True)
         for picture in pictures:
-            known, halves = layers.rendered(picture.name), []
+            socket, halves = layers.rendered(picture.name).socket, []
+            march = getattr(passes.modules()[picture.name], "march", None)
             for number, found in eyes:
                 channels = found[picture.name]
-                pixels = channels["Combined" if known.socket == "Image" else known.socket]
-                if passes.records_masks(known):
+                if march:
                     flames = self._flames(picture.frame)
-                    pixels = Eye(self.shot, self.stage, channels, number, smoke, *flames).masks(pixels)
-                halves.append(pixels)
+                    eye = Eye(self.shot, self.stage, channels, number, smoke, *flames)
+                    halves.append(march(eye, picture.frame))
+                else:
+                    halves.append(channels["Combined" if socket == "Image" else socket])
             self._write(part, picture, np.concatenate(halves))
 
-    def _write_layers(self, eyes: list[Eye], bloom: list[Array], picture: Picture, part: Path) -> None:
-        """Write the layers of the visible picture."""
+    def _write_channels(
+        self, each: passes.MarchedPass, eyes: list[Eye], bloom: list[Array], picture: Picture, part: Path
+    ) -> None:
+        """Write the EXR of a marched pass; the bloom of each eye is not blurred by the camera's motion."""
         names, halves = [], []
-        for eye, glare in zip(eyes, bloom, strict=True):
-            named = eye.layers | {"bloom.": glare}
+        for number, eye in enumerate(eyes):
+            channels = passes.modules()[each.name].march(eye, picture.frame)
+            glare = {"bloom.": bloom[number]} if bloom else {}
             names = [
                 name + channel
-                for name, values in named.items()
+                for name, values in (channels | glare).items()
                 for channel in ("RGB" if values.shape[-1] == 3 else [""])
             ]
-            values = self._blur(eye, np.concatenate(list(eye.layers.values()), axis=-1), picture.frame)
-            halves.append(np.concatenate([values, glare], axis=-1))
+            values = self._blur(eye, np.concatenate(list(channels.values()), axis=-1), picture.frame)
+            halves.append(np.concatenate([values, *glare.values()], axis=-1))
         pixels, space = np.concatenate(halves), self.shot.settings.render.exr_space
-        for red in (names.index(name) for name in names if name.endswith("R")):
+        reds = [index for index, name in enumerate(names) if name.endswith("R")]
+        for red in reds:
             pixels[..., red : red + 3] = exr_tags.to_exr_space(pixels[..., red : red + 3], space)
-        about = exr_tags.attributes(self.shot, picture.camera, picture.frame, _LAYERS, colour=True)
+        about = exr_tags.attributes(self.shot, picture.camera, picture.frame, each.comments, bool(reds))
         file = part / Path(picture.file("exr")).name
-        sensor.write_image(file, pixels, about, names, half=True, one_line=True)
+        sensor.write_image(file, pixels, about, names, half=each.bits == 16, one_line=True)
 
     def _write_visible(self, eyes: list[Array], picture: Picture, part: Path, bloom: bool) -> list[Array]:
         """Write the files of the visible picture from the radiance (h, w, 3) of each eye.
@@ -283,33 +289,48 @@ def applies(shot: Shot, scene: bpy.types.Scene) -> bool:
 
 def _prepare(scene: bpy.types.Scene) -> None:
     """Set up view layers, AOVs and light groups for the integrated renderer."""
-    for name in MARCHED_PASSES:
-        layer = layers.find_layer(scene, name)
+    for each in _shared():
+        layer = layers.find_layer(scene, each.name)
         layer.use_pass_z = True
         layer.pass_alpha_threshold = 1.0  # flames are transparent emitters
-        if name != "depth":
+        if not each.geometry_only:
             layer.samples = 0  # equal samples, so that a pass does not depend on other requested passes
-            known = {each.name for each in layer.aovs}
-            for aov, kind in _AOVS.items():
-                if aov not in known:
-                    made = layer.aovs.add()
-                    made.name, made.type = aov, kind
-    masks = layers.find_layer(scene, "masks")
-    masks.use_pass_z = True
+            _add_aovs(layer, _AOVS)
+    for each in filter(passes.records_masks, passes.known().values()):
+        layers.find_layer(scene, each.name).use_pass_z = True
     groups = layers.find_layer(scene, "rgb").lightgroups
     if nodes.FIRE not in {group.name for group in groups}:
         groups.add(name=nodes.FIRE)
 
 
-def _split_light(scene: bpy.types.Scene) -> None:
-    """Add the light groups and the AOV of the layers of the visible picture."""
+def _shared() -> list[passes.RenderedPass]:
+    """Return the passes that share rays; those that show geometry alone, whose layers have no AOVs, last."""
+    rendered = [each for each in passes.known().values() if isinstance(each, passes.RenderedPass)]
+    return sorted((each for each in rendered if each.shares_rays), key=lambda each: each.geometry_only)
+
+
+def _marched(names: Iterable[str]) -> list[passes.MarchedPass]:
+    """Return the marched passes among passes, in their order."""
+    return [each for name in names if isinstance(each := passes.known()[name], passes.MarchedPass)]
+
+
+def _add_quantities(scene: bpy.types.Scene, each: passes.MarchedPass) -> None:
+    """Add the light groups and AOVs that a pass needs to the layer of the visible picture."""
     layer = layers.find_layer(scene, "rgb")
     there = {group.name for group in layer.lightgroups}
-    for name in {nodes.SUN, nodes.FIRELIGHT} - there:
-        layer.lightgroups.add(name=name)
-    if nodes.GLOW not in {each.name for each in layer.aovs}:
-        made = layer.aovs.add()
-        made.name, made.type = nodes.GLOW, "COLOR"
+    for name in each.light_groups:
+        if name not in there:
+            layer.lightgroups.add(name=name)
+    _add_aovs(layer, dict.fromkeys(each.aovs, "COLOR"))
+
+
+def _add_aovs(layer: bpy.types.ViewLayer, kinds: Mapping[str, str]) -> None:
+    """Add missing AOVs, of these types by name, to a view layer."""
+    there = {aov.name for aov in layer.aovs}
+    for name, kind in kinds.items():
+        if name not in there:
+            aov = layer.aovs.add()
+            aov.name, aov.type = name, kind
 
 
 @contextmanager

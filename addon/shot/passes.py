@@ -128,6 +128,9 @@ class RenderedPass(Pass):
         Render smoke almost transparent, with longer ray steps.
     geometry_only
         It shows geometry alone, independent of materials.
+    shares_rays
+        The integrated renderer makes it from one render for all such passes. If its module defines ``march``,
+        it gets an eye of the camera (`render.eye.Eye`) and the frame, and returns the pixels.
     """
 
     socket: str = "Image"
@@ -140,11 +143,34 @@ class RenderedPass(Pass):
     pixel_centres: bool = False
     through_smoke: bool = False
     geometry_only: bool = False
+    shares_rays: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
 class MarchedPass(Pass):
-    """Pass that the integrated renderer makes from the render of the visible picture."""
+    """Pass that the integrated renderer makes from the rays of the visible picture.
+
+    Its module defines ``march``, which gets an eye of the camera (`render.eye.Eye`) after its picture, and
+    the frame, and returns arrays (h, w, 1 or 3) by channel: ``x`` is a channel, and ``fire.`` the colour
+    ``fire.R``, ``fire.G``, ``fire.B``. Other names do not end with R.
+
+    Attributes
+    ----------
+    light_groups, aovs
+        Light groups, and AOVs of colours, of `blender.nodes` that the surfaces need in addition.
+    bloom
+        Add the light of the lens bloom as the colour ``bloom.``.
+    bits
+        Bits per value in its EXR.
+    comments
+        Meaning of the channels, in its EXR.
+    """
+
+    light_groups: tuple[str, ...] = ()
+    aovs: tuple[str, ...] = ()
+    bloom: bool = False
+    bits: Literal[16, 32] = 32
+    comments: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from datetime import UTC, datetime
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -171,7 +172,6 @@ def test_settings_decide_how_smoke_is_drawn(near_settings, run):
     assert drawn(method="preview")
     for other in ({"draw": "volume"}, {"engine": "eevee"}):
         assert not drawn(**other)
-    assert integrated.MARCHED_PASSES == ("rgb", "thermal", "depth")
 
 
 def test_layers_of_the_picture_add_up(film, tmp_path):
@@ -194,6 +194,19 @@ def test_layers_of_the_picture_add_up(film, tmp_path):
     assert sun[ground].mean() > sky[ground].mean() > 0.0
     assert found["smoke.A"].max() > 0.9
     assert fire[..., 0].max() > 1.0
+
+
+def test_one_module_adds_a_marched_pass(film, monkeypatch):
+    def march(eye, _frame):
+        return {"opacity": eye.smoke_opacity[..., None], "glow.": eye.channels["Firetwin Glow"]}
+
+    veil = passes.MarchedPass(name="veil", files=("exr",), aovs=("Firetwin Glow",))
+    modules = passes.modules() | {"veil": SimpleNamespace(PASS=veil, march=march)}
+    monkeypatch.setattr(passes, "modules", lambda: modules)
+    monkeypatch.setattr(passes, "known", lambda: {name: each.PASS for name, each in modules.items()})
+    made = film("veil")["veil"]
+    assert made.shape == (54, 96, 4)
+    assert made.max() > 0.9
 
 
 def test_data_agrees_with_the_passes_that_it_is_made_from(film, tmp_path):

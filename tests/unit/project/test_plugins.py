@@ -1,4 +1,4 @@
-"""Plugins: one file adds a format, a reader or a source, in a copy of the package; ranks and literals."""
+"""Plugins: one file adds a pass, a format, a reader or a source, in a copy of the package; ranks, literals."""
 
 import json
 import os
@@ -67,7 +67,19 @@ class Soot(Source):
 SOURCE = Soot
 """
 
+PASS = """
+from firetwin.shot.passes import DerivedPass
+
+ORDER = 29
+HELP = "Where soot is"
+PASS = DerivedPass(name=__name__.rpartition(".")[2], files=("txt",), needs=("depth",))
+
+def finish(files, needed, shot, camera, frame):
+    files["txt"].write_text(f"soot of {needed['depth']}")
+"""
+
 ADDED = {
+    "passes": PASS,
     "run/readers": READER,
     "forecasts/ensemble/readers": ENSEMBLE,
     "export": EXPORT,
@@ -83,6 +95,7 @@ from firetwin.errors import InputError
 from firetwin.export import formats as exports
 from firetwin.run import readers
 from firetwin.forecasts.ensemble import readers as ensembles
+from firetwin.shot import passes
 from firetwin.shot.sections import SmokeSettings, Time
 from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
@@ -98,6 +111,8 @@ except InputError as error:
     unknown = str(error)
 labels.write(folder, [], ["soot"])
 settings = Settings(cache=folder / "cache", time=Time(frames=1), smoke=SmokeSettings(method="soot"))
+for name in ("soot", "ash"):
+    passes.finish(name, {"txt": folder / f"{name}.txt"}, {"depth": "depth"}, None, "drone", 1)
 place = bake.bake(Shot(settings, readers.open(folder / "run")))
 print(json.dumps({
     "foreign": [readers.foreign(each) for each in (file, other)],
@@ -106,17 +121,26 @@ print(json.dumps({
     "ensemble": ensembles.read([file], None, 0.0),
     "export": exports.known()["soot"].title,
     "labels": ["soot" in labels.names("all"), (folder / "labels.soot").exists()],
+    "passes": [name for name in passes.known() if name in ("masks", "soot", "ash", "thermal")],
+    "help": list(passes.known()) == list(passes.helps()),
+    "code": passes.code_files("ash"),
+    "finished": (folder / "ash.txt").read_text() == (folder / "soot.txt").read_text() == "soot of depth",
     "smoke": [each.name for each in place.glob("*.vdb")],
 }))
 """
 
 
-def test_one_file_adds_a_format_a_reader_or_a_source(tmp_path, make_run):
+def test_one_file_adds_a_pass_a_format_a_reader_or_a_source(tmp_path, make_run):
     copy = tmp_path / "copy" / "firetwin"
     shutil.copytree(ROOT / "addon", copy)
     (copy / "data").symlink_to(ROOT / "data")
     for place, text in ADDED.items():
         (copy / place / "soot.py").write_text(text)
+    room = copy / "edit" / "passes"
+    room.mkdir()
+    (room / "__init__.py").touch()
+    (room / "_helper.py").touch()
+    (room / "ash.py").write_text(PASS)
     make_run()
     environment = os.environ | {"PYTHONPATH": str(copy.parent)}
     line = [sys.executable, "-c", USE, str(tmp_path)]
@@ -129,6 +153,10 @@ def test_one_file_adds_a_format_a_reader_or_a_source(tmp_path, make_run):
         "ensemble": "members",
         "export": "Soot",
         "labels": [True, True],
+        "passes": ["masks", "soot", "ash", "thermal"],
+        "help": True,
+        "code": ["edit/passes/ash.py", "edit/passes/_helper.py", "imaging"],
+        "finished": True,
         "smoke": ["smoke_000001.vdb"],
     }
 

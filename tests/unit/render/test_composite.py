@@ -324,8 +324,6 @@ def test_layers_add_up_and_are_positive(seed, white):
         noisy=noisy,
         fire=fire,
         fire_distance=np.full(SIZE, 200.0, np.float32),
-        sun=sun,
-        firelight=firelight,
     )
     at = composite.taps(found)
     smoke = even_smoke(at)
@@ -333,7 +331,7 @@ def test_layers_add_up_and_are_positive(seed, white):
     marched = np.concatenate([smoke, flames, smoke[..., 3:]], axis=-1)
     made = composite.compose(found, at, marched, 1.0 if white else None)
     made = composite.soften_highlights(made, 2.0) if white else made
-    lights = composite.split_light(found, made.solid)
+    lights = composite.split_light(found, made.solid, sun, firelight)
     assert made.solid + made.fire + made.smoke == pytest.approx(made.picture, rel=1e-5, abs=1e-5)
     assert sum(lights) == pytest.approx(made.solid, rel=1e-5, abs=1e-5)
     for layer in (made.solid, made.fire, made.smoke, *lights):
@@ -344,10 +342,12 @@ def test_layers_add_up_and_are_positive(seed, white):
 
 
 def test_lights_have_the_shares_of_their_groups():
-    groups = {"sun": 3.0, "firelight": 1.0, "fire": 2.0}
-    found = surfaces(12.0, 100.0, noisy=np.full((*SIZE, 3), 8.0, np.float32))
-    found = dataclasses.replace(found, **{k: np.full((*SIZE, 3), v, np.float32) for k, v in groups.items()})
-    sun, sky, fire = composite.split_light(found, np.full((*SIZE, 3), 12.0, np.float32))
+    noisy, solid, sun, firelight, flames = (
+        np.full((*SIZE, 3), value, np.float32) for value in (8.0, 12.0, 3.0, 1.0, 2.0)
+    )
+    sun, sky, fire = composite.split_light(
+        surfaces(12.0, 100.0, noisy=noisy, fire=flames), solid, sun, firelight
+    )
     assert [each.mean() for each in (sun, sky, fire)] == pytest.approx([6.0, 4.0, 2.0])
 
 
