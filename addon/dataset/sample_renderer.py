@@ -131,5 +131,5 @@ class SampleRenderer(IntegratedRenderer):
 
     def _surfaces(self, name: str, folder: Path, centres: bool = False) -> surfaces.Channels:
         """Render the surfaces of a pass."""
-        ((_, found),) = surfaces.render(self.scene, [name], folder, centres)
+        ((_, found),) = surfaces.render(self.scene, [name], folder, centres=centres)
         return found[name]

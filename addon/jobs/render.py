@@ -94,7 +94,7 @@ def run(
     from ..render.store import Store
 
     out = asked.out
-    _prepare_folder(out, tell)
+    _refuse_run(out)
     with notify_if_slow(READING):
         shot = shot or choice.shot()
         wanted = plan.pictures(shot, *asked.selection())
@@ -120,8 +120,8 @@ def run(
     return result
 
 
-def _prepare_folder(out: Path, tell: MessageCallback) -> None:
-    """Check that a folder can take pictures, and rename its files of former versions.
+def _refuse_run(out: Path) -> None:
+    """Check that an output folder is not a run.
 
     Raises
     ------
@@ -129,15 +129,12 @@ def _prepare_folder(out: Path, tell: MessageCallback) -> None:
         The folder is a run.
     """
     from ..errors import UsageError
-    from ..render import former_names
     from ..run.readers import folder
 
     if folder.sniff(out):  # a camera's folder may have the name of a field
         raise UsageError(
             f"--out: {out} is a run folder, and pictures do not belong among its fields; choose another"
         )
-    if renamed := former_names.rename(out):
-        tell(f"renamed {count(renamed, 'file')}: @ in the names of views is now _at_")
 
 
 def _compare(

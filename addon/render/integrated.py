@@ -99,7 +99,7 @@ class IntegratedRenderer:
         flames, outline = self._flames(frame)
         distance = self._measure_flames(outline) if "rgb" in pictures else None
         with self.cost.part(frame_cost.SURFACES):
-            rendered = surfaces.render(self.scene, [first], part, infrared)
+            rendered = surfaces.render(self.scene, [first], part, infrared=infrared)
             wanted = self.has_text and "rgb" in pictures
             text = text_layer.render(self.scene, part) if wanted else {}
         eyes = [
@@ -296,7 +296,7 @@ def _prepare(scene: bpy.types.Scene) -> None:
         if not each.geometry_only:
             layer.samples = 0  # equal samples, so that a pass does not depend on other requested passes
             _add_aovs(layer, _AOVS)
-    for each in filter(passes.records_masks, passes.known().values()):
+    for each in filter(passes.records_masks, layers.rendered_passes()):
         layers.find_layer(scene, each.name).use_pass_z = True
     groups = layers.find_layer(scene, "rgb").lightgroups
     if nodes.FIRE not in {group.name for group in groups}:
@@ -305,8 +305,8 @@ def _prepare(scene: bpy.types.Scene) -> None:
 
 def _shared() -> list[passes.RenderedPass]:
     """Return the passes that share rays; those that show geometry alone, whose layers have no AOVs, last."""
-    rendered = [each for each in passes.known().values() if isinstance(each, passes.RenderedPass)]
-    return sorted((each for each in rendered if each.shares_rays), key=lambda each: each.geometry_only)
+    shared = [each for each in layers.rendered_passes() if each.shares_rays]
+    return sorted(shared, key=lambda each: each.geometry_only)
 
 
 def _marched(names: Iterable[str]) -> list[passes.MarchedPass]:

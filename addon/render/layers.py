@@ -32,7 +32,7 @@ def build(settings: Settings, stage: Stage) -> None:
     if not stage.is_own:
         return
     repair(stage.scene)
-    for rendered_pass in _rendered():
+    for rendered_pass in rendered_passes():
         layer = _layer(stage.scene, rendered_pass)
         layer[nodes.THERMAL] = 0.0 if rendered_pass.shading == "light" else 1.0
         layer[nodes.MASKS] = 1.0 if rendered_pass.shading == "masks" else 0.0
@@ -55,10 +55,10 @@ def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
         return
     repair(stage.scene)
     there = {layer.get(owned.MARK) for layer in stage.scene.view_layers}
-    if any(f"pass {each.name}" not in there for each in _rendered()):
+    if any(f"pass {each.name}" not in there for each in rendered_passes()):
         build(settings, stage)
         return
-    for rendered_pass in _rendered():
+    for rendered_pass in rendered_passes():
         _exclude_hidden(_layer(stage.scene, rendered_pass), rendered_pass, parts)
 
 
@@ -131,7 +131,7 @@ def black_materials(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[No
     The override is opaque exactly where the materials of these layers are. It is disabled in scenes with
     materials of an artist.
     """
-    shapes = {f"pass {name}" for name in names if _is_geometry_only(name)}
+    shapes = {f"pass {name}" for name in names if rendered(name).geometry_only}
     geometry_layers = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
     if not geometry_layers or not all(
         owned.is_ours(material) for material in bpy.data.materials if material.users
@@ -176,14 +176,9 @@ def rendered(name: str) -> RenderedPass:
     return each
 
 
-def _rendered() -> list[RenderedPass]:
+def rendered_passes() -> list[RenderedPass]:
     """List the passes that have a view layer."""
     return [known_pass for known_pass in passes.known().values() if isinstance(known_pass, RenderedPass)]
-
-
-def _is_geometry_only(name: str) -> bool:
-    each = passes.known()[name]
-    return isinstance(each, RenderedPass) and each.geometry_only
 
 
 def _layer(scene: bpy.types.Scene, each: RenderedPass) -> bpy.types.ViewLayer:
@@ -226,7 +221,7 @@ def _compositor(scene: bpy.types.Scene) -> None:
     if not owned.is_ours(tree):
         return
     there = {node[owned.MARK] for node in tree.nodes if owned.is_ours(node)}
-    for each in _rendered():
+    for each in rendered_passes():
         if f"exr {each.name}" not in there:
             before = set(tree.nodes)
             _record(scene, tree, each)

@@ -17,12 +17,8 @@ from .picture import Picture
 
 def unprocessed_passes() -> tuple[str, ...]:
     """List the passes that Blender's own render can write: others need special rays or post-processing."""
-    known = passes.known().items()
-    return tuple(name for name, each in known if _is_unprocessed(each))
-
-
-def _is_unprocessed(each: passes.Pass) -> bool:
-    return isinstance(each, passes.RenderedPass) and not each.pixel_centres and not each.finished
+    rendered = layers.rendered_passes()
+    return tuple(each.name for each in rendered if not each.pixel_centres and not each.finished)
 
 
 def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> None:

@@ -127,11 +127,6 @@ class Store:
         """List the paths of all finished files, sorted."""
         return [path for (path,) in self.data.fetch_all("SELECT path FROM files ORDER BY path")]
 
-    def rename(self, path: str, to: str) -> None:
-        """Change the path of a finished file."""
-        self.data.execute("UPDATE files SET path = ? WHERE path = ?", to, path)
-        self.data.execute("DELETE FROM notes WHERE name = 'exported'")
-
     def note(self, name: str) -> str | None:
         """Read the note stored under a name; None if there is none."""
         row = self.data.fetch_one("SELECT note FROM notes WHERE name = ?", name)

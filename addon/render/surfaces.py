@@ -25,6 +25,7 @@ def render(
     scene: bpy.types.Scene,
     names: Collection[str],
     folder: Path,
+    *,
     centres: bool = False,
     infrared: bool = True,
 ) -> list[tuple[int, dict[str, Channels]]]:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import InputError, UsageError
-from firetwin.render import fingerprint, former_names, manifest, plan, store
+from firetwin.render import fingerprint, manifest, plan, store
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store
 from firetwin.run import content
@@ -411,39 +411,3 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
     path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
     assert keys() == before
     code_fingerprint._hash.cache_clear()
-
-
-def test_files_with_former_names_are_renamed_once_and_found(tmp_path):
-    picture, made_with = Picture("drone@slower", 1, "depth"), {"settings": 1}
-    (new,) = picture.files()
-    assert new == "drone_at_slower/depth/drone_at_slower_depth_000001.exr"
-    old, kept = new.replace("_at_", "@"), "drone/rgb/drone_rgb_000001.png"
-    for name in (old, kept):
-        (tmp_path / name).parent.mkdir(parents=True)
-        (tmp_path / name).write_bytes(name.encode())
-    with Store(tmp_path, create=True) as made:
-        made.add(made_with, {name: store.describe(tmp_path / name) for name in (old, kept)})
-        made.export()
-    assert former_names.rename(tmp_path) == 1
-    with Store(tmp_path) as found:
-        assert found.names() == [kept, new]
-        assert found.is_intact(content.fingerprint(made_with), [new])
-        found.export()
-    assert sorted(manifest.read(tmp_path)["files"]) == [kept, new]
-    assert not (tmp_path / "drone@slower").exists()
-    assert former_names.rename(tmp_path) == former_names.rename(tmp_path / "none") == 0
-
-
-def test_a_rename_continues_after_an_interruption_and_replaces_no_file(tmp_path):
-    names = ("drone@slower/drone@slower_rgb.mp4", "drone@slower/depth/drone@slower_depth_000001.exr")
-    other = "drone_at_slower/depth/drone_at_slower_depth_000001.exr"
-    for name in (*names, other):
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_bytes(name.encode())
-    with Store(tmp_path, create=True) as made:
-        made.add({}, {name: store.describe(tmp_path / name) for name in (*names, other)})
-    (tmp_path / names[0]).replace(tmp_path / "drone_at_slower/drone_at_slower_rgb.mp4")
-    assert former_names.rename(tmp_path) == 1
-    assert (tmp_path / "drone_at_slower/drone_at_slower_rgb.mp4").read_bytes() == names[0].encode()
-    assert (tmp_path / other).read_bytes() == other.encode()
-    assert (tmp_path / names[1]).exists()
