@@ -9,7 +9,6 @@ minute in total on two processors, by the last times of each file, are omitted, 
 from __future__ import annotations
 
 import functools
-import itertools
 import json
 import re
 import sys
@@ -37,6 +36,11 @@ def module(path: Path) -> tuple[str, ...]:
     return (*PACKAGES[folder], *(part for part in rest if part != "__init__")) if folder in PACKAGES else ()
 
 
+SCANS = {
+    "addon/cli.py": ("*/command.py", "commands/*.py"),
+    "addon/shot/passes.py": ("passes/*.py", "*/passes/*.py"),
+}
+"""Files that find others by the registry."""
 IMPORT = re.compile(
     r"^[ \t]*(?:from[ \t]+(?P<dots>\.*)(?P<origin>[\w.]*)[ \t]+import[ \t]+(?P<members>\([^)]*\)|[^(\n]+)"
     r"|import[ \t]+(?P<modules>[^\n]+))",
@@ -53,9 +57,8 @@ def _words(names: str) -> list[str]:
 def imports(path: Path) -> frozenset[str]:
     """Find the full names of modules and members that a file imports, directly or by a test helper."""
     names = set()
-    if path == ROOT / "addon/cli.py":  # it scans for them
-        commands = (ROOT / "addon").glob("*/command.py"), (ROOT / "addon/commands").glob("*.py")
-        names |= {".".join(module(each)) for each in itertools.chain(*commands)}
+    for pattern in SCANS.get(path.relative_to(ROOT).as_posix(), ()):
+        names |= {".".join(module(each)) for each in (ROOT / "addon").glob(pattern)}
     package = module(path) if path.name == "__init__.py" else module(path)[:-1]
     for match in IMPORT.finditer(path.read_text(encoding="utf-8")):
         if match["modules"]:

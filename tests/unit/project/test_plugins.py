@@ -1,4 +1,4 @@
-"""Plugins: one file adds a pass, a format, a reader or a source, in a copy of the package; ranks, literals."""
+"""Plugins: one file adds a pass, a format, a reader or a source, in a copy of the package; ranks and text."""
 
 import json
 import os
