@@ -12,7 +12,9 @@ from firetwin import plugins
 from scene_text import DRONE, NO_PLANTS, NO_SMOKE, TINY
 
 ADDON = Path(firetwin.__file__).parent
-PACKAGES = list(plugins.parts("firetwin", "command"))
+DECLARED = plugins.parts("firetwin", "command")
+PACKAGES = list(DECLARED)
+COMMANDS = {package: each.COMMAND.name for package, each in DECLARED.items() if hasattr(each, "COMMAND")}
 SCENE = 'run = "{run}"\n[time]\nframes = 1\n' + NO_PLANTS + NO_SMOKE + TINY + DRONE
 REGISTER = "import firetwin; firetwin.register(); firetwin.unregister()"
 IMPORT_ALL = """
@@ -63,14 +65,20 @@ def test_a_feature_is_not_needed_by_the_others(python_without, package):
     python("-c", REGISTER)
 
 
-@pytest.mark.parametrize("package", PACKAGES)
-def test_a_missing_feature_has_no_command(python_without, package):
-    python, command = python_without([package]), plugins.parts("firetwin", "command")[package].COMMAND.name
+@pytest.mark.parametrize(("package", "command"), COMMANDS.items())
+def test_a_missing_feature_has_no_command(python_without, package, command):
+    python = python_without([package])
     ended = python("-m", "firetwin", command, "scene.toml", status=2)
     assert f"invalid choice: '{command}'" in ended.stderr
     listed = python("-m", "firetwin", "--help").stdout.splitlines()
     assert not any(line.startswith(f"    {command} ") for line in listed)
     assert any(line.startswith("    render ") for line in listed)
+
+
+def test_a_missing_feature_has_no_options_in_other_commands(python_without):
+    python = python_without(["forecasts", "growing"])
+    for command, option in (("brief", "--ensemble"), ("convert", "--members"), ("render", "--follow")):
+        assert option not in python("-m", "firetwin", command, "--help").stdout
 
 
 FEATURE = {

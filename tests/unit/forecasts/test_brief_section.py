@@ -104,9 +104,9 @@ def test_places_without_fire_are_named_once(folder, stations, tmp_path):
 
 def test_the_page_escapes_the_names_of_an_ensemble(folder, tmp_path):
     made = members(tmp_path, folder, [HOURS, np.inf], perturbed=HOSTILE, synthetic=True)
-    found = brief(made, folder)
-    assert PageParts(page.html(found, 10_000_000))
-    text = "".join(found.sections)
+    content = brief(made, folder)
+    assert PageParts(page.html(content, 10_000_000))
+    text = "".join(content.sections)
     assert HOSTILE not in text
     assert "SYNTHETIC" in text
 

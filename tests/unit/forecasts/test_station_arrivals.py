@@ -37,14 +37,16 @@ def members(tmp_path):
 def test_members_of_a_forecast_at_stations(make_run, members, tmp_path, capsys):
     fields = small_fields()
     place = float(fields["fuel_latitude"][3]), float(fields["fuel_longitude"][3])
-    made = small_stations.briefed(tmp_path / "there.gpkg", [("Inside", *place), ("Outside", 40.0, -120.0)])
-    text = call(capsys, "resources", made, "--stations", "--ensemble", members)
+    station_file = small_stations.briefed(
+        tmp_path / "there.gpkg", [("Inside", *place), ("Outside", 40.0, -120.0)]
+    )
+    text = call(capsys, "resources", station_file, "--stations", "--ensemble", members)
     assert "2 of 20 burn it by  10 of 20 burn it by  do not reach it by 17 Sep 02:45" in text
     rows = {name: line for line in text.splitlines() for name in ("Inside", "Outside") if name in line}
     assert re.search(r"16 Sep 21:45 +17 Sep 01:45 +10 of 20", rows["Inside"])
     assert rows["Outside"].count("not simulated") == 3
     assert "forecast: Many, 20 of 20 members, issued 16 Sep 2014 20:45 -08" in text
-    text = call(capsys, "resources", made, "--stations", "--ensemble", members, "--json")
+    text = call(capsys, "resources", station_file, "--stations", "--ensemble", members, "--json")
     inside, outside = (each["forecast"] for each in json.loads(text)["matches"])
     assert [each["time"] for each in inside["burned_by"]] == [
         "2014-09-17T05:45:00Z",
@@ -54,9 +56,9 @@ def test_members_of_a_forecast_at_stations(make_run, members, tmp_path, capsys):
     assert (inside["members"], inside["not_reached"], outside["members"]) == (20, 10, 0)
     for late, listed in (("2014-09-17T05:00Z", ["Inside"]), ("2014-09-17T06:00Z", [])):
         options = "--ahead", "--available-at", late, "--json"
-        text = call(capsys, "resources", made, "--stations", "--ensemble", members, *options)
+        text = call(capsys, "resources", station_file, "--stations", "--ensemble", members, *options)
         assert [each["station"]["name"] for each in json.loads(text)["matches"]] == listed
-    text = call(capsys, "resources", made, "--stations", "--run", make_run(), "--ensemble", members)
+    text = call(capsys, "resources", station_file, "--stations", "--run", make_run(), "--ensemble", members)
     assert "fire  " in text
     assert " Sep 2014" in text, "the zone of the run"
 
@@ -67,17 +69,21 @@ def test_members_at_a_control_line(make_run, members):
     point = [float(fields["fuel_longitude"][3]), float(fields["fuel_latitude"][3])]
     about = {"kind": "control_line", "division": "A", "hour": 1.0}
     drawn = {"features": [{"properties": about, "geometry": {"coordinates": [[point], [point]]}}]}
-    found = {"from": "2014-09-17T04:55:00Z", "divisions": [{"name": "A"}, {"name": "B"}], "assumptions": []}
-    lines = line_arrivals.add(found, readers.open(make_run()), ensemble.open(members), drawn)
-    told = found["divisions"][0]["forecast"]
+    suggestion = {
+        "from": "2014-09-17T04:55:00Z",
+        "divisions": [{"name": "A"}, {"name": "B"}],
+        "assumptions": [],
+    }
+    lines = line_arrivals.add(suggestion, readers.open(make_run()), ensemble.open(members), drawn)
+    told = suggestion["divisions"][0]["forecast"]
     assert (told["members"], told["hour"], told["reached_by_hour"]) == (20, 1.0, 2)
     assert [each["time"] for each in told["reached_by"]] == [
         "2014-09-17T05:45:00Z",
         "2014-09-17T09:45:00Z",
         None,
     ]
-    assert "forecast" not in found["divisions"][1]
+    assert "forecast" not in suggestion["divisions"][1]
     assert lines["A"][0].startswith("members of the forecast at this line: 2 of 20 by ")
     assert lines["A"][0].endswith(" when the forecast ends")
     assert lines["A"][1] == "2 of 20 members reach it by hour 1"
-    assert found["assumptions"][0].startswith("forecast: Many, 20 of 20 members, issued 16 Sep 2014 ")
+    assert suggestion["assumptions"][0].startswith("forecast: Many, 20 of 20 members, issued 16 Sep 2014 ")
