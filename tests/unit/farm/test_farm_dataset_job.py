@@ -16,10 +16,10 @@ def job(tmp_path, monkeypatch):
     for name in ("make", "finish"):
         monkeypatch.setattr(farm_work, name, lambda *words, name=name: calls.append((name, *words)))
     (tmp_path / "plan.toml").write_text('[[runs]]\nplace = "A"\nrun = "a"\n')
-    found = divided.make_job("dataset", tmp_path / "plan.toml", tmp_path / "out", 6)
-    monkeypatch.setattr(fingerprint, "versions", lambda: found.versions)
-    plan.write(found, tmp_path / "out")
-    return found, tmp_path / "out", calls
+    planned = divided.make_job("dataset", tmp_path / "plan.toml", tmp_path / "out", 6)
+    monkeypatch.setattr(fingerprint, "versions", lambda: planned.versions)
+    plan.write(planned, tmp_path / "out")
+    return planned, tmp_path / "out", calls
 
 
 def write(out, index):
@@ -29,9 +29,9 @@ def write(out, index):
 
 
 def test_a_task_has_complete_scenes(job):
-    found, out, calls = job
-    assert [each.frames for each in found.tasks] == ["1-5", "6-12", "13"]
-    assert plan.read(out) == found
+    planned, out, calls = job
+    assert [each.frames for each in planned.tasks] == ["1-5", "6-12", "13"]
+    assert plan.read(out) == planned
     task.run(out, [2])
     assert calls == [("make", out.parent / "plan.toml", out, "6-12")]
 
@@ -49,7 +49,7 @@ def test_a_plan_is_told_from_a_scene_by_its_places(tmp_path):
 
 
 def test_progress_and_resubmission_go_by_finished_samples(job):
-    found, out, _ = job
+    planned, out, _ = job
     assert (status.gather(out).pictures, status.gather(out).finished) == (13, 0)
     assert status.gather(out).waiting == [1, 2, 3]
     for index in (*range(1, 6), 7):
@@ -59,7 +59,7 @@ def test_progress_and_resubmission_go_by_finished_samples(job):
     assert [each.frame for each in missing] == [6, *range(8, 14)]
     assert numbers == [2, 3]
     assert list(assemble.format_missing(missing)) == ["sample labels 6,8-13: not rendered"]
-    assert sum(1 for task in found.tasks for _ in found.pictures(task)) == 13
+    assert sum(1 for task in planned.tasks for _ in planned.pictures(task)) == 13
 
 
 def test_the_last_stage_finishes_a_complete_data_set_alone(job):
@@ -74,8 +74,8 @@ def test_the_last_stage_finishes_a_complete_data_set_alone(job):
 
 @pytest.mark.parametrize("engine", sorted(known()))
 def test_every_scheduler_gets_the_tasks(job, engine):
-    found, out, _ = job
-    known()[engine]().write(Batch(found, out, (1, 2, 3)))
+    planned, out, _ = job
+    known()[engine]().write(Batch(planned, out, (1, 2, 3)))
     written = "".join(path.read_text() for path in (out / "farm" / engine).rglob("*") if path.is_file())
     assert "farm" in written
     assert "task" in written
