@@ -444,21 +444,6 @@ def test_remove_keeps_a_scene_that_something_was_added_to(settings, scene_file):
     assert not owned.has_data(scene)
 
 
-def test_undo_takes_back_what_was_built_and_removed(settings, scene_file):
-    settings.scene_file = str(scene_file)
-    bpy.ops.ed.undo_push(message="before")
-    bpy.ops.firetwin.build()
-    bpy.ops.ed.undo_push(message="built")
-    bpy.ops.firetwin.remove()
-    bpy.ops.ed.undo_push(message="removed")
-    assert not bpy.data.objects
-    bpy.ops.ed.undo()
-    assert "Firetwin Ground" in bpy.context.scene.objects
-    bpy.ops.ed.undo()
-    assert set(bpy.context.scene.objects.keys()) == {"Cube", "Light", "Camera"}
-    assert bpy.context.scene.world.name == "World"
-
-
 def space(start=0.01, end=1000.0):
     shading = SimpleNamespace(color_type="MATERIAL")
     return SimpleNamespace(clip_start=start, clip_end=end, region_3d=SimpleNamespace(), shading=shading)
