@@ -14,7 +14,7 @@ def build(shot, stage):
     """Build "Traced Smoke", with the colours of the product's material."""
     solved = next(node for node in flow_material.build(shot, stage).node_tree.nodes if node.type == "GROUP")
     fresh, old = (tuple(solved.inputs[f"{age} Colour"].default_value[:3]) for age in ("Fresh", "Old"))
-    made, tree = nodes.material("Traced Smoke")
+    look, tree = nodes.material("Traced Smoke")
     density = tree.attribute("density")
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     seen = density * (1.0 + tree.attribute("hidden") * camera * HIDDEN)
@@ -23,5 +23,5 @@ def build(shot, stage):
     even = flow_material.FORWARD
     detailed = tree.add_shader(smoke_shader(tree, seen, albedo, even), tree.emission(air, part * seen))
     tree.volume(tree.mix_shader(camera, smoke_shader(tree, density, MIDDLE, even), detailed))
-    made.cycles.volume_sampling = "DISTANCE"
-    return made
+    look.cycles.volume_sampling = "DISTANCE"
+    return look
