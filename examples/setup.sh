@@ -11,7 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build_packages=(
   g++ cmake ninja-build pkg-config python3 python3-dev python3-venv
   libopenvdb-dev libboost-dev libimath-dev libblosc-dev libtbb-dev libopenimageio-dev libopenexr-dev
-  libgeographiclib-dev libtomlplusplus-dev libfast-float-dev libfftw3-dev
+  libgeographiclib-dev libfast-float-dev libfftw3-dev
   nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
 )
 run_packages=(

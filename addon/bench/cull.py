@@ -92,9 +92,9 @@ def draw(
 ) -> dict[str, float]:
     """Build and render a scene, with two seeds if unculled; return CPU seconds of both, and bytes."""
     import bpy
-    from firetwin_core import run as runs
 
     from ..jobs import worker_scene
+    from ..run import opening as runs
     from ..shot.shot import Shot
 
     file = scene_file(Path(folder), cull)

@@ -157,11 +157,10 @@ class _Frame:
     """A scene of the sample's smoke, for one rendering method."""
 
     def __init__(self, folder: Path, way: str) -> None:
-        from firetwin_core import run as runs
-
         from ..blender import owned
         from ..data import sample
         from ..render import engine, layers
+        from ..run import opening as runs
         from ..scene import build
         from ..smoke import bake, sources
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..did_you_mean import suggestion
 from ..errors import InputError, UsageError, input_error
 from ..progress import Reporter, count, result, say
 from ..shot import run_checks, schema
@@ -18,7 +19,6 @@ from ..shot.cameras import track
 from ..shot.cameras.rigs import Rig
 from ..shot.cameras.rigs.drone import Drone
 from ..shot.schema.bounds import LONGEST_NAME
-from ..shot.schema.did_you_mean import suggestion
 from ..shot.settings import Camera, Settings, toml_update
 from ..shot.shot import Shot
 from ..shot.source import ShotSource

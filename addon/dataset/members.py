@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..did_you_mean import suggestion
 from ..jobs import convert as job
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..run import collections
-from ..shot.schema.did_you_mean import suggestion
 from .plan import Plan
 
 ALL = "all"

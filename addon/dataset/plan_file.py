@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..did_you_mean import suggestion
 from ..errors import input_error, reading
 from ..shot.schema import either, key, validate
 from ..shot.schema.bounds import file_name, twice
-from ..shot.schema.did_you_mean import suggestion
-from ..shot.schema.toml_positions import Where
-from ..shot.settings.scene_file import TableReader, loads
+from ..shot.settings.scene_file import TableReader
+from ..toml_text import Where, loads
 from . import distributions, members
 from .distributions import DEFAULTS, KINDS, VALUES, Constant, Distribution
 from .plan import CameraShares, NegativeShares, Plan, PlanKeys, PlanRun, RunKeys, SplitShares

@@ -44,11 +44,11 @@ def _run(arguments: argparse.Namespace) -> None:
     """
     from .. import files
     from ..auto_framing import fitted_scene
+    from ..did_you_mean import suggestion
     from ..errors import UsageError
     from ..progress import count, result, say
     from ..shot import passes
     from ..shot.runs import scene_runs
-    from ..shot.schema.did_you_mean import suggestion
     from . import cut, edl, fcp_xml, markers, media, otio
 
     shot = fitted_scene.find_source(arguments).shot()

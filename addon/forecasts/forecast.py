@@ -10,11 +10,11 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
+from ..did_you_mean import suggestion
 from ..errors import InputError
 from ..geometry.grids import dilate
 from ..run import areas, content, front, times
 from ..shot.schema import scene_text
-from ..shot.schema.did_you_mean import suggestion
 from ..shot.settings import Settings
 from .ensemble import choice, ensemble
 from .ensemble.ensemble import Ensemble

@@ -13,11 +13,11 @@ from datetime import datetime
 from pathlib import Path
 
 import numpy as np
-from firetwin_core import run
 from numpy.typing import NDArray
 
 from .. import files
 from ..errors import InputError, input_error, reading
+from ..run import opening
 from ..run.models import netcdf, write
 from ..run.models.model import Model
 from ..staging import new_folder
@@ -149,7 +149,7 @@ def _constants(part: Path, last: Path | None, model: Model, until: datetime) -> 
 def _check(part: Path, model: Model) -> None:
     """Open the new run as a check."""
     try:
-        run.open(part)
+        opening.open(part)
     except InputError as error:
         reason = f"makes no run: {Path(error.path).stem}: {error.reason}; it is most likely incomplete"
         raise input_error(model.files[0], reason) from None

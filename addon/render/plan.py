@@ -5,11 +5,11 @@ from __future__ import annotations
 import itertools
 from collections.abc import Collection
 
+from ..did_you_mean import suggestion
 from ..errors import Error, UsageError
 from ..run.content import fingerprint
 from ..shot import passes
 from ..shot.runs import scene_runs
-from ..shot.schema.did_you_mean import suggestion
 from ..shot.schema.frame_list import FrameList
 from ..shot.settings import Camera, mount
 from ..shot.shot import Shot

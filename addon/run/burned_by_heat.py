@@ -8,10 +8,8 @@ their Q and F gives the delay and the heat.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 from firetwin_core.run import Run
@@ -72,13 +70,11 @@ def _course(
 
     Also yields the flux extrapolated to the end of its averaging period, and that period, s.
     """
-    with open(Path(run.path) / "run.toml", "rb") as file:
-        period = tomllib.load(file).get("mean_s")
     heat, before = np.zeros(run.elevation.shape), None
     for index, flux in enumerate(run.frames("heat_flux") if fluxes is None else fluxes):
         now = np.maximum(np.nan_to_num(flux.astype(np.float64), posinf=0.0, neginf=0.0), 0.0)
         step = float(times[index] - times[index - 1]) if index else float(times[1] - times[0])
-        mean = step if period is None else min(float(period), step)
+        mean = step if run.mean_s is None else min(run.mean_s, step)
         if before is not None:
             heat = heat + 0.5 * step * (before + now)
         change = now - before if before is not None else np.zeros_like(now)

@@ -50,7 +50,7 @@ def source(folder: Path) -> dict[str, Any]:
     path = folder / "run.toml"
     try:
         entries = tomllib.loads(path.read_text(encoding="utf-8-sig")).get("source", {})
-    except (OSError, ValueError, RecursionError):  # the core reports errors in run.toml
+    except (OSError, ValueError, RecursionError):  # `description` reports these
         return {}
     for key, value in entries.items():
         listed = isinstance(value, list) and all(isinstance(each, str) for each in value)

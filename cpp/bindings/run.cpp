@@ -3,6 +3,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "flux/arrival.hpp"
+#include "io/file.hpp"
 #include "io/name.hpp"
 #include "run/grid_file.hpp"
 #include "run/read_ahead.hpp"
@@ -31,9 +32,27 @@ Array<float> read_grid(const std::filesystem::path& path) {
   return give(std::move(grid.values), {length(grid.rows), length(grid.columns)});
 }
 
-std::shared_ptr<Run> open(const std::filesystem::path& folder) {
+py::bytes read_description(const std::filesystem::path& folder) {
+  constexpr std::uint64_t largest = 16U << 20;
+  Buffer<char> bytes;
+  {
+    const py::gil_scoped_release release;
+    bytes = io::read_all(run::Folder(folder).file("run.toml"), largest);
+  }
+  return {bytes.data(), bytes.size()};
+}
+
+// NOLINTNEXTLINE(bugprone-easily-swappable-parameters): keywords in Python
+std::shared_ptr<Run> open(const std::filesystem::path& folder, std::string name, std::string start,
+                          int offset, std::string vertical, std::optional<double> interval_s,
+                          std::vector<double> times_s, double zero_s, std::optional<double> mean_s,
+                          std::optional<double> no_data, bool synthetic, std::string event,
+                          std::string zone, std::vector<std::string> warnings) {
   const py::gil_scoped_release release;
-  return std::make_shared<Run>(folder);
+  return std::make_shared<Run>(
+      folder, run::Description{std::move(name), std::move(start), offset, std::move(vertical),
+                               interval_s, std::move(times_s), zero_s, mean_s, no_data, synthetic,
+                               std::move(event), std::move(zone), std::move(warnings)});
 }
 
 std::vector<py::ssize_t> grid_shape(const Run& run) {
@@ -296,8 +315,16 @@ py::str describe(const Run& run) {
 } // namespace
 
 void init_run(Module module) {
+  const auto names = run::field_names();
+  module.attr("FIELDS") = std::vector<std::string>(names.begin(), names.end());
   module.def("read_grid", &read_grid, py::arg("path"));
-  module.def("open", &open, py::arg("folder"));
+  module.def("read_description", &read_description, py::arg("folder"));
+  module.def("open", &open, py::arg("folder"), py::kw_only(), py::arg("name"), py::arg("start"),
+             py::arg("offset") = 0, py::arg("vertical") = "orthometric",
+             py::arg("interval_s") = py::none(), py::arg("times_s") = std::vector<double>(),
+             py::arg("zero_s") = 0.0, py::arg("mean_s") = py::none(),
+             py::arg("no_data") = py::none(), py::arg("synthetic") = false, py::arg("event") = "",
+             py::arg("zone") = "", py::arg("warnings") = std::vector<std::string>());
   Class<Frames>(module, "Frames")
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &Frames::next);
@@ -309,6 +336,7 @@ void init_run(Module module) {
       .def_property_readonly("zone", [](const Run& r) { return r.description().zone; })
       .def_property_readonly("event", [](const Run& r) { return r.description().event; })
       .def_property_readonly("start", [](const Run& r) { return r.description().start; })
+      .def_property_readonly("mean_s", [](const Run& r) { return r.description().mean_s; })
       .def_property_readonly("vertical", [](const Run& r) { return r.description().vertical; })
       .def_property_readonly("times", &axis_view<&Run::times>)
       .def_property_readonly("latitude", &axis_view<&Run::latitude>)

@@ -174,4 +174,3 @@ build_draco() {
   (cd src && find draco -name '*.h' -exec cp --parents -t "$DESTDIR$prefix/include" {} +)
 }
 
-build_tomlplusplus() { copy_headers usr/include/toml++; }

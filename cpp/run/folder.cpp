@@ -1,9 +1,9 @@
 #include "run/folder.hpp"
 
 #include "io/name.hpp"
-#include "run/fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <map>
@@ -12,6 +12,13 @@
 namespace firetwin::run {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr std::array<std::string_view, 23> names = {
+    "latitude",       "longitude",         "elevation",      "fuel_latitude",   "fuel_longitude",
+    "fuel_elevation", "fuel_arrival_time", "fuel_category",  "burned_fraction", "air_latitude",
+    "air_longitude",  "surface_fuel",      "canopy_fuel",    "heat_flux",       "temperature",
+    "wind_east",      "wind_north",        "temperature_3d", "smoke_3d",        "height_3d",
+    "wind_east_3d",   "wind_north_3d",     "wind_up_3d"};
 
 /// The time index in a name like 000042.txt.
 std::optional<std::size_t> frame_index(const fs::path& path) {
@@ -44,6 +51,10 @@ template <class Visit> void for_each_entry(const fs::path& folder, Visit visit) 
 
 } // namespace
 
+std::span<const std::string_view> field_names() {
+  return names;
+}
+
 Folder::Folder(const fs::path& path) {
   std::error_code code;
   path_ = fs::canonical(path, code);
@@ -70,7 +81,7 @@ void Folder::add(const fs::directory_entry& entry) {
     return;
   }
   const std::string field = io::utf8(data ? name.stem() : name);
-  if (find_field(field)) {
+  if (std::find(names.begin(), names.end(), field) != names.end()) {
     fields_.push_back(field);
   } else if (data) {
     strangers_.push_back(io::utf8(name));

@@ -4,11 +4,15 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace firetwin::run {
+
+/// Names of all fields that a run may contain.
+std::span<const std::string_view> field_names();
 
 /// Files of a run. Symbolic links to targets outside the folder are rejected.
 class Folder {

@@ -8,7 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <utility>
 
 namespace firetwin::run {
 namespace {
@@ -56,8 +57,8 @@ const Field& need(const std::optional<Field>& series, const std::filesystem::pat
 
 } // namespace
 
-Run::Run(const std::filesystem::path& folder)
-    : folder_(folder), description_(read_description(folder_.file("run.toml"))) {
+Run::Run(const std::filesystem::path& folder, Description description)
+    : folder_(folder), description_(std::move(description)) {
   if (description_.no_data) {
     no_data_ = static_cast<float>(*description_.no_data);
   }
@@ -190,6 +191,9 @@ void Run::set_times() {
   }
   if (!std::isfinite(times_.back())) {
     io::fail(path() / "run.toml", "interval_s is so long that the last time is not a number");
+  }
+  if (std::adjacent_find(times_.begin(), times_.end(), std::greater_equal<>()) != times_.end()) {
+    io::fail(path() / "run.toml", "times must ascend; correct interval_s or times_s");
   }
 }
 

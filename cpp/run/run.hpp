@@ -23,9 +23,8 @@ namespace firetwin::run {
 /// on demand. Thread-safe.
 class Run {
 public:
-  /// @throws InputError if run.toml, an axis, the shape of a field or the number of model times is
-  /// invalid
-  explicit Run(const std::filesystem::path& folder);
+  /// @throws InputError if an axis, the shape of a field or the model times are invalid
+  Run(const std::filesystem::path& folder, Description description);
 
   const std::filesystem::path& path() const { return folder_.path(); }
   const Description& description() const { return description_; }

@@ -21,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
 import whole_run
 from firetwin.run import info
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 
 CASES = ((30.0, 80), (75.0, 40), (150.0, 24))  # m, and cells along a side
 PARTS, END, SPEED = 5, 3600.0, 0.3  # s; m/s

@@ -59,8 +59,8 @@ def change_in_blender(
     """Return the CPU seconds of each frame change, with all objects and without each animated one."""
     import bpy
     from firetwin.data import sample
+    from firetwin.run import opening as runs
     from firetwin.scene import build
-    from firetwin_core import run as runs
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene, file = bpy.context.scene, scene_file(Path(folder))

@@ -16,7 +16,7 @@ import numpy as np
 from firetwin.bench.harness import OURS, Bench
 from firetwin.data import sample, stored
 from firetwin.data.grid import MODEL_CELL_SIZE, MODEL_CELLS, axes
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 from firetwin_core.flux import Interpolator
 from numpy.typing import NDArray
 

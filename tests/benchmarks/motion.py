@@ -23,7 +23,7 @@ from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.shot import Shot
 from firetwin.smoke import sources
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 from firetwin_core import volume
 from numpy.typing import NDArray
 

@@ -25,7 +25,7 @@ from pathlib import Path
 import numpy as np
 from firetwin import memory
 from firetwin.bench.timing import Stopwatch
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 from numpy.typing import NDArray
 
 FIRST, SPLIT = 1000, 4  # minute of the sample's long run up the canyon; cells for each, along both axes

@@ -160,6 +160,7 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.typ
     from firetwin.blender import owned
     from firetwin.data import sample
     from firetwin.render import engine
+    from firetwin.run import opening as runs
     from firetwin.scene import clock
     from firetwin.scene.camera import build as camera
     from firetwin.scene.light import build as light
@@ -167,7 +168,6 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.typ
     from firetwin.scene.smoke import flow_material
     from firetwin.smoke import bake, flow_frames
     from firetwin.smoke.flow import Flow
-    from firetwin_core import run as runs
 
     sample.write(file.run, MODEL_TIMES, "npy")
     shot = Shot(file, runs.open(file.run))

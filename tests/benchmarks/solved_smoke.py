@@ -19,11 +19,11 @@ import firetwin_core
 import numpy as np
 from firetwin import memory
 from firetwin.bench.timing import Stopwatch
+from firetwin.run import opening
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
 from firetwin.smoke import sources
 from firetwin.smoke.flow import Flow
-from firetwin_core import run
 
 
 def time_call(work, *arguments) -> tuple[float, float]:
@@ -38,7 +38,7 @@ def measure(scene: Path, frames: int, cache: Path) -> dict[str, float]:
     """Solve and paint; return all figures by name."""
     settings = scene_file.read(scene)
     settings = replace(settings, cache=cache, smoke=replace(settings.smoke, method="flow"))
-    shot = Shot(settings, run.open(settings.run))
+    shot = Shot(settings, opening.open(settings.run))
     source = sources.select(shot)
     solved: Flow = source.flow
     last = min(frames or shot.frames.count, shot.frames.count)

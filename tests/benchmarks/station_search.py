@@ -18,9 +18,9 @@ from pathlib import Path
 
 import numpy as np
 from firetwin.bench.timing import Stopwatch
+from firetwin.run import opening as runs
 from firetwin.stations import fire_arrival, reading, search, writing
 from firetwin.stations.query import Query
-from firetwin_core import run as runs
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 

@@ -10,6 +10,7 @@ from threading import Event
 import numpy as np
 import whole_run
 from firetwin.run import burning
+from firetwin.run import opening as runs
 from firetwin.shot.fire.smoke_scale import Scale
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import Settings
@@ -17,7 +18,6 @@ from firetwin.shot.shot import Shot
 from firetwin.smoke import integrator, snapshots
 from firetwin.smoke.domains import Box, Domain
 from firetwin.smoke.integrator import Integrator
-from firetwin_core import run as runs
 
 CELL, SPIN_UP, SPAN = 50.0, 200.0, 80.0  # m; s before the first frame; s from the first frame to the second
 TERRAIN = {

@@ -65,7 +65,7 @@ NAMED = (
 
 def write(folder: Path, run: Path) -> Path:
     """Write the scene and all that it reads below a folder; the scene file."""
-    from firetwin_core import run as runs
+    from firetwin.run import opening as runs
 
     for part in ("terrain", "observed", "tracks"):
         (folder / part).mkdir(parents=True)

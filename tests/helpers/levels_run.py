@@ -3,7 +3,7 @@
 import shutil
 
 import numpy as np
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 
 
 def write(run, folder):

@@ -14,6 +14,7 @@ bpy = pytest.importorskip("bpy")
 import firetwin  # noqa: E402
 from firetwin.blender import compat, nodes, owned  # noqa: E402
 from firetwin.render import layers  # noqa: E402
+from firetwin.run import opening as runs  # noqa: E402
 from firetwin.scene import build, haze  # noqa: E402
 from firetwin.scene.fire import firebrand_material  # noqa: E402
 from firetwin.scene.fire import material as flame_material  # noqa: E402
@@ -26,7 +27,6 @@ from firetwin.shot.cameras.rigs.drone import CameraKey, Drone  # noqa: E402
 from firetwin.shot.fire.smoke_scale import Scale  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin.smoke import domains  # noqa: E402
-from firetwin_core import run as runs  # noqa: E402
 from firetwin_core import sensor  # noqa: E402
 from made_once import made_once  # noqa: E402
 from scene_text import PANEL  # noqa: E402

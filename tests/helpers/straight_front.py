@@ -2,10 +2,10 @@
 
 import numpy as np
 from firetwin.run import areas
+from firetwin.run import opening as runs
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from small_run import NT, RUN_TOML
 
 NORTH, EAST = areas.metres_per_degree(38.9)

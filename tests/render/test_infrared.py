@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from firetwin.blender import nodes
 from firetwin.render import engine
+from firetwin.run import opening as runs
 from firetwin.scene import build, clock, infrared, temperature
 from firetwin.scene.smoke import flow_material
 from firetwin.shot.fire import air_temperature as airs
 from firetwin.shot.sections import Thermal
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from firetwin_core import sensor, volume
 
 

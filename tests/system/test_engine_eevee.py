@@ -35,14 +35,15 @@ import bpy
 import numpy as np
 from firetwin.blender import compat, nodes, owned
 from firetwin.scene import infrared
+from firetwin.run import opening
 from firetwin.shot.settings import scene_file as file
 from firetwin.shot.shot import Shot
-from firetwin_core import run, sensor
+from firetwin_core import sensor
 
 settings = file.read(sys.argv[1])
 bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
-stage, shot = owned.adopt(scene), Shot(settings, run.open(settings.run))
+stage, shot = owned.adopt(scene), Shot(settings, opening.open(settings.run))
 for kelvin, left, right in ((300.0, -12.0, 0.5), (1200.0, 0.5, 5.5), (1000.0, 5.5, 12.0)):
     mesh = bpy.data.meshes.new("plate")
     mesh.from_pydata([(left, -3, 0), (right, -3, 0), (right, 3, 0), (left, 3, 0)], [], [(0, 1, 2, 3)])
@@ -75,14 +76,15 @@ import numpy as np
 from mathutils import Vector
 from firetwin.blender import compat, owned
 from firetwin.scene.live import labels
+from firetwin.run import opening
 from firetwin.shot.settings import scene_file as file
 from firetwin.shot.shot import Shot
-from firetwin_core import run, sensor
+from firetwin_core import sensor
 
 settings = file.read(sys.argv[1])
 bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
-stage, shot = owned.adopt(scene), Shot(settings, run.open(settings.run))
+stage, shot = owned.adopt(scene), Shot(settings, opening.open(settings.run))
 labels.build(shot, stage, stage.part("Live"))
 place = Vector(shot.ground.point(38.840, -120.555).ravel().tolist())
 camera = bpy.data.objects.new("eye", bpy.data.cameras.new("eye"))

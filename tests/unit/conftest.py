@@ -6,7 +6,7 @@ from pathlib import Path
 import firetwin_core as core
 import pytest
 from firetwin.jobs import convert
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 from small_run import RUN_TOML, small_fields, write_field

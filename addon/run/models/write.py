@@ -15,12 +15,12 @@ from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
-from firetwin_core import run
 from numpy.typing import NDArray
 
 from ... import files
 from ...errors import Error, InputError, input_error, reading, writing
 from ...progress import Progress, size
+from .. import opening
 from .model import LONGEST, Model
 
 JOURNAL = "journal.json"
@@ -111,7 +111,7 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
 def _check(part: Path, model: Model) -> None:
     """Open the new run as a check; remove the result of a damaged model if this fails."""
     try:
-        run.open(part)
+        opening.open(part)
     except InputError as error:
         shutil.rmtree(part, ignore_errors=True)
         reason = f"makes no run: {Path(error.path).stem}: {error.reason}; it is most likely damaged"

@@ -18,12 +18,11 @@ import zipfile
 from pathlib import Path
 from types import ModuleType
 
-from firetwin_core import run
 from firetwin_core.run import Run
 
 from ... import limits, plugins
 from ...errors import Error, input_error, reading
-from .. import times
+from .. import opening, times
 from . import folder
 
 _MANY = 200_000  # files of a folder
@@ -48,7 +47,7 @@ def open(path: str | Path) -> Run:
         if not folder.sniff(path) and foreign(path):
             reason = f"is a fire model's own output; make a run of it: firetwin convert {path} --out RUN"
             raise input_error(path, reason)
-        found = folder.open(path) if folder.sniff(path) else run.open(path)  # which reports errors
+        found = folder.open(path) if folder.sniff(path) else opening.open(path)  # which reports errors
         _check_years(found)
         return found
 

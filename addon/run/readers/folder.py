@@ -10,10 +10,10 @@ from __future__ import annotations
 from pathlib import Path
 from types import ModuleType
 
-from firetwin_core import run
 from firetwin_core.run import Run
 
 from ... import plugins
+from .. import opening
 
 NAME = "a folder with run.toml"
 
@@ -32,7 +32,7 @@ def changing_file(path: Path) -> Path:
 def open(path: Path) -> Run:
     """Open the run."""
     reader = _reader(path)
-    return run.open(reader.newest(path) if reader else path)
+    return opening.open(reader.newest(path) if reader else path)
 
 
 def warnings(path: Path, zone: str) -> list[tuple[str, str]]:

@@ -7,7 +7,6 @@ identified by units and standard names; ``[axes]`` names them if these are missi
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from functools import partial
@@ -17,7 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import input_error
+from ...errors import input_error, reading
+from ...toml_text import loads
 from ..models import companion_rasters, from_arrival_time, masks, netcdf, optional_packages, zarr_store
 from ..models.grid import Grid
 from ..models.model import Model, Options, read_until
@@ -144,10 +144,8 @@ def _open(path: Path) -> netcdf.File:
 def _mapping(path: Path | None) -> tuple[dict[str, dict[str, Any]], dict[str, str]]:
     if path is None:
         return {}, {}
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise input_error(path, f"not valid TOML ({' '.join(str(error).split())})") from None
+    with reading(path):
+        data = loads(path, path.read_text(encoding="utf-8-sig"))
     known = (*_MOVING, *_LEVELS, *_STILL)
     fields = {}
     for name, entry in data.get("fields", {}).items():

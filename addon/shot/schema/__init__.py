@@ -18,8 +18,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .did_you_mean import suggestion
-from .toml_positions import Where
+from ...did_you_mean import suggestion
+from ...toml_text import Where
 
 Names = Mapping[str, str] | tuple[str, ...]
 

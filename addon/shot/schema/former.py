@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .toml_positions import Where
+from ...toml_text import Where
 
 FORMER = {"ground": "terrain", "places": "labels"}
 """Sections: former name to present name."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...errors import InputError, input_error, reading
+from ...toml_text import Where, places
 from .former import current
-from .toml_positions import Where, places
 
 
 class SceneText:

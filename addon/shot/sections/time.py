@@ -11,8 +11,8 @@ from datetime import datetime, timedelta
 from fractions import Fraction
 
 from ... import timecode
+from ...did_you_mean import suggestion
 from ..schema import Where, key
-from ..schema.did_you_mean import suggestion
 
 
 def _zone(value: str) -> str | None:

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ...did_you_mean import suggestion
 from .. import passes
 from ..cameras import rigs
 from ..frames import part_of
 from ..schema import Where, fields, key, kind_of, one_of
 from ..schema.bounds import file_name, twice
-from ..schema.did_you_mean import suggestion
 from ..schema.frame_list import FrameList
 from ..sections import LARGEST_SEED, SceneSettings
 

@@ -5,16 +5,15 @@ from __future__ import annotations
 import dataclasses
 import math
 import os
-import re
-import tomllib
 import typing
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from ...errors import InputError, input_error, reading
+from ...did_you_mean import suggestion
+from ...errors import reading
+from ...toml_text import loads
 from ..schema import Field, Key, Where, either, fields, items, validate
-from ..schema.did_you_mean import suggestion
 from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, REMOVED
 from ..schema.frame_list import FrameList
 from ..schema.scene_text import SceneText, load
@@ -52,28 +51,6 @@ def parse(text: str, path: Path) -> Settings:
     """
     values, reader = loads(path, text), TableReader(path, text)
     return reader.table(Settings, reader.current(values), ())
-
-
-def loads(path: Path, text: str) -> dict[str, Any]:
-    """Parse TOML as if it were the file `path`.
-
-    Raises
-    ------
-    InputError
-        It is not valid TOML.
-    """
-    try:
-        return tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise _syntax_error(path, text, str(error)) from None
-
-
-def _syntax_error(path: Path, text: str, message: str) -> InputError:
-    """Syntax error; tomllib's messages end in "(at line 3, column 7)" or "(at end of document)"."""
-    match = re.search(r" \(at line (\d+), column (\d+)\)$", message)
-    reason = re.sub(r" \(at .*\)$", "", message)
-    line, column = (int(match[1]), int(match[2])) if match else (max(1, len(text.splitlines())), 0)
-    return input_error(path, f"not valid TOML: {reason[:1].lower()}{reason[1:]}", line=line, column=column)
 
 
 class TableReader(SceneText):

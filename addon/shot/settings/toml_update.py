@@ -19,8 +19,8 @@ from tomlkit.items import AoT
 
 from ... import files
 from ...errors import Error
+from ...toml_text import Where, places, tables
 from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
-from ..schema.toml_positions import Where, places, tables
 from . import Settings
 from .scene_file import parse, text
 

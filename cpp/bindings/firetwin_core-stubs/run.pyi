@@ -1,10 +1,13 @@
 """Model runs on disk."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from os import PathLike
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+FIELDS: list[str]
+"""Names of all fields that a run may contain."""
 
 def read_grid(path: str | PathLike[str]) -> NDArray[np.float32]:
     """Read a text or .npy grid (ny, nx). Each value is rounded to the nearest float32.
@@ -19,11 +22,46 @@ def read_grid(path: str | PathLike[str]) -> NDArray[np.float32]:
         The file is malformed (with line and column), or a number is too large for a float32.
     """
 
-def open(folder: str | PathLike[str]) -> Run:
-    """Open a run folder. Checks run.toml, the axes and the shape of every field; frames stay on disk.
+def read_description(folder: str | PathLike[str]) -> bytes:
+    """Read the run.toml of a run folder, at most 16 MiB.
 
-    Files have the formats of `read_grid`. `start` in run.toml is a TOML date-time or an ISO 8601 string with
-    an offset from UTC. Longitudes may be in -180..180, 0..360, or cross the antimeridian.
+    Raises
+    ------
+    InputError
+        The folder or the file is missing, is a link to a place outside of the folder, or cannot be read.
+    """
+
+def open(
+    folder: str | PathLike[str],
+    *,
+    name: str,
+    start: str,
+    offset: int = 0,
+    vertical: str = "orthometric",
+    interval_s: float | None = None,
+    times_s: Sequence[float] = ...,
+    zero_s: float = 0.0,
+    mean_s: float | None = None,
+    no_data: float | None = None,
+    synthetic: bool = False,
+    event: str = "",
+    zone: str = "",
+    warnings: Sequence[str] = ...,
+) -> Run:
+    """Open the fields of a run folder. Checks the axes and the shape of every field; frames stay on disk.
+
+    Files have the formats of `read_grid`. Longitudes may be in -180..180, 0..360, or cross the antimeridian.
+    `firetwin.run.opening.open` reads the other arguments from run.toml; properties of `Run` describe them.
+    Exactly one of interval_s and times_s is given.
+
+    Parameters
+    ----------
+    zero_s
+        Time at `start` in the run's files, s; it is subtracted from fuel_arrival_time.
+    no_data
+        Value that marks missing data.
+    warnings
+        First of `Run.warnings`.
 
     Raises
     ------
@@ -65,6 +103,9 @@ class Run:
         It is the start in run.toml, or a full second near the first time if that is more than a million
         seconds later, for example for times since 1970: 32-bit floats would lose fractions of a second.
         """
+    @property
+    def mean_s(self) -> float | None:
+        """Each heat flux is the mean over these seconds before its time; None: of the interval."""
     @property
     def vertical(self) -> str:
         """Vertical reference: "orthometric" or "ellipsoidal"."""

@@ -6,12 +6,13 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import flames
 from firetwin.shot.fire import flame_map
 from firetwin.shot.sections import FireSettings
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 
 
 @pytest.fixture

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.data import sample
+from firetwin.run import opening as runs
 from firetwin.shot.fire import heat_release
 from firetwin.shot.fire.fire import Fire
 from firetwin_core import flux
-from firetwin_core import run as runs
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis_profiles import examples

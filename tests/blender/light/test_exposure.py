@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.run.sun import Moon
 from firetwin.scene import glow
 from firetwin.shot import sections
@@ -18,7 +19,6 @@ from firetwin.shot.fire.fire import Fire
 from firetwin.shot.fire.smoke_scale import Scale
 from firetwin.shot.light import exposure, exposure_meter, sky
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 
 MIDDLE = 38.845, -120.55
 DAY, NIGHT = datetime(2014, 9, 17, 21, 30, tzinfo=UTC), datetime(2014, 9, 18, 6, 30, tzinfo=UTC)

@@ -6,13 +6,13 @@ from dataclasses import replace
 import bpy
 import numpy as np
 from firetwin.blender import nodes
+from firetwin.run import opening as runs
 from firetwin.scene import build
 from firetwin.scene.forest import levels, models, preview
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import forest
-from firetwin_core import run as runs
 
 
 def test_scrubbing_a_saved_scene_moves_its_clock_and_camera(built_file):

@@ -13,6 +13,7 @@ import numpy as np
 import plumes
 import pytest
 from firetwin.blender import compat, owned
+from firetwin.run import opening as runs
 from firetwin.scene.smoke import build as smoke
 from firetwin.scene.smoke import volume_files
 from firetwin.shot.cameras import visibility
@@ -24,7 +25,6 @@ from firetwin.shot.shot import Shot
 from firetwin.smoke import bake, cache, sources
 from firetwin.smoke.sources.model import ModelSource
 from firetwin_core import InputError, lod
-from firetwin_core import run as runs
 
 
 @pytest.fixture(scope="module")

@@ -12,10 +12,10 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
+from firetwin.run import opening as runs  # noqa: E402
 from firetwin.shot.cameras import rigs  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin.smoke import bake, domains, flow, flow_frames, integrator, plume_mass, snapshots  # noqa: E402
-from firetwin_core import run as runs  # noqa: E402
 
 
 @pytest.fixture

@@ -5,11 +5,11 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.run import burning, frame
+from firetwin.run import opening as runs
 from firetwin.scene.terrain import build as ground_build
 from firetwin.scene.terrain import fields
 from firetwin.shot.fire.fire import Fire
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from mathutils.bvhtree import BVHTree
 
 

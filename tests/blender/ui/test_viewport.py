@@ -6,13 +6,13 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import viewport
+from firetwin.run import opening as runs
 from firetwin.scene import build
 from firetwin.scene.forest import build as forest
 from firetwin.scene.forest import fire_effects, preview
 from firetwin.scene.forest.levels import LEVELS
 from firetwin.scene.terrain import solid_view
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 
 
 @pytest.fixture

@@ -21,8 +21,7 @@ namespace {
 using namespace firetwin;
 namespace fs = std::filesystem;
 
-const std::array<std::pair<std::string, std::string>, 10> files = {{
-    {"run.toml", "start = 2014-09-17T04:45:00Z\ninterval_s = 60\nno_data = -9999\n"},
+const std::array<std::pair<std::string, std::string>, 9> files = {{
     {"latitude.txt", "38.7 38.8\n"},
     {"longitude.txt", "-120.6 -120.5 -120.4\n"},
     {"elevation.txt", "900 910 920\n930 940 950\n"},
@@ -63,7 +62,10 @@ private:
 };
 
 void open(const fs::path& folder) {
-  const run::Run run(folder);
+  run::Description description;
+  description.interval_s = 60.0;
+  description.no_data = -9999.0;
+  const run::Run run(folder, description);
   const std::vector<double>& times = run.times();
   for (std::size_t i = 0; i < times.size(); ++i) {
     fuzz::check(std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1]), "times ascend");

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes the readers: text grids, .npy files, run.toml, complete run folders, and the content of 3D Tiles. Builds into build/fuzz.
+# Fuzzes the readers: text grids, .npy files, complete run folders, and the content of 3D Tiles. Builds into build/fuzz.
 #
 #   tests/system/fuzz/run.sh                   200,000 executions of each
 #   tests/system/fuzz/run.sh --runs 10000000   as many of each
@@ -11,7 +11,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
 
-all="text npy toml run b3dm i3dm cmpt pnts gltf"
+all="text npy run b3dm i3dm cmpt pnts gltf"
 say() { echo "fuzz: $*" >&2; }
 usage() {
   echo "usage: tests/system/fuzz/run.sh [--runs N | --seconds N] [--jobs N] [${all// /|} ...]" >&2

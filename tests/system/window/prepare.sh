@@ -15,7 +15,7 @@ packages=(
   monado-service libopenxr1-monado mesa-vulkan-drivers
   g++ cmake ninja-build pkgconf python3-dev python3-venv
   libopenvdb-dev libboost-dev libimath-dev libblosc-dev libtbb-dev libopenimageio-dev libopenexr-dev
-  libgeographiclib-dev libtomlplusplus-dev libfast-float-dev libfftw3-dev
+  libgeographiclib-dev libfast-float-dev libfftw3-dev
   nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
 )
 

@@ -9,6 +9,7 @@ import sqlite3
 from dataclasses import replace
 from pathlib import Path
 
+from firetwin.run import opening as runs
 import numpy as np
 import pytest
 import small_stations
@@ -32,7 +33,6 @@ from firetwin.render import manifest
 from firetwin.run import content
 from firetwin.run.score import report
 from firetwin.stations import fire_arrival, reading
-from firetwin_core import run as runs
 from page_parts import PageParts
 from PIL import Image
 

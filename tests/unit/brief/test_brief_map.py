@@ -13,8 +13,8 @@ from firetwin.ellipsoid import metres_per_degree
 from firetwin.errors import InputError
 from firetwin.geometry import mercator
 from firetwin.run import fronts
+from firetwin.run import opening as runs
 from firetwin.run.front import reach
-from firetwin_core import run as runs
 from PIL import Image
 
 TO_3857 = pyproj.Transformer.from_crs("EPSG:4326", "EPSG:3857", always_xy=True)

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 
+from firetwin.run import opening as runs
 import numpy as np
 import pytest
 from firetwin.errors import InputError, UsageError
@@ -22,7 +23,6 @@ from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.sections import TerrainSettings, Time
 from firetwin.shot.settings import Camera, Render, Settings, mount, scene_file
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from firetwin_core import sensor
 
 KEYS = (

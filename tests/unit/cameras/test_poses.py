@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.geometry import quaternion
+from firetwin.run import opening as runs
 from firetwin.shot.cameras import rotation, sparse_keys
 from firetwin.shot.cameras.rigs import poses
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Settings, scene_file
 from firetwin.shot.shot import Shot
 from firetwin_core import geo
-from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -5,11 +5,11 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.render import fingerprint
+from firetwin.run import opening as runs
 from firetwin.shot import run_checks
 from firetwin.shot.cameras import path, targets
 from firetwin.shot.cameras.rigs._key import CameraKey
@@ -19,7 +20,6 @@ from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Settings, scene_file
 from firetwin.shot.shot import Shot
 from firetwin_core import lod
-from firetwin_core import run as runs
 
 pyproj = pytest.importorskip("pyproj")
 

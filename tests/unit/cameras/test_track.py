@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from firetwin import cli
 from firetwin.errors import InputError
+from firetwin.run import opening as runs
 from firetwin.shot import run_checks
 from firetwin.shot.cameras import track
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Settings, code_fingerprint, scene_file
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st

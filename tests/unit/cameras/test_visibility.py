@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from firetwin.geometry.grids import dilate
+from firetwin.run import opening as runs
 from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.sections import Forest, TerrainSettings, Time
@@ -13,7 +14,6 @@ from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
 from firetwin.shot.surface import mesh_tolerance, shadow_casters
 from firetwin_core import lod
-from firetwin_core import run as runs
 from small_run import FX, FY, NX, NY
 
 ORBIT = Orbit(latitude=38.905, longitude=-120.592, radius=900.0, height=300.0, speed=20.0)

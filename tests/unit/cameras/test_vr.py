@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.render import fingerprint, spherical
+from firetwin.run import opening as runs
 from firetwin.shot.cameras import panorama
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.drone import Drone
@@ -18,7 +19,6 @@ from firetwin.shot.cameras.rigs.vr import Vr
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Render, Settings, scene_file
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from firetwin_core import sensor
 
 PLACE = (38.904, -120.594)

@@ -5,7 +5,7 @@ import json
 import pytest
 from firetwin.errors import InputError
 from firetwin.run import labels
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 
 PLACES = [labels.Label("Pollock Pines", 38.7616, -120.5869), labels.Label("Loon Lake", 38.992, -120.32)]
 

@@ -28,11 +28,11 @@ from firetwin.render import fingerprint
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
 from firetwin.run import content
+from firetwin.run import opening as runs
 from firetwin.shot.frames import part_of
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
 from firetwin.smoke.sources.flow import FlowSource
-from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import whole_run
 from firetwin.run import burned_by_heat, info
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 
 CELL, CELLS, PARTS, END = 150.0, 24, 10, 3600.0  # m; s
 DELAY = 600.0  # s

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from firetwin.run import areas, burned_fraction, info, maps, released
+from firetwin.run import opening as runs
 from firetwin.run.arrival_grid import ArrivalGrid
 from firetwin.run.models.arrival import from_share, held
 from firetwin.run.models.grid import Grid
 from firetwin.run.score.overlap import Overlap
 from firetwin.shot.fire import fuel
 from firetwin_core import constants
-from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.contour import QuadContourSet

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.shot.fire import emissions, heat_release
 from firetwin.shot.fire.fire import Fire
 from firetwin_core import constants
-from firetwin_core import run as runs
 from small_run import FX, FY, NT, NX, NY, RUN_TOML
 
 GRASS, SHRUB, LITTER, CROWN = (emissions.KINDS[kind] for kind in range(4))

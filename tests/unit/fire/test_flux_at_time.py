@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 from firetwin_core.flux import Interpolator, at_time
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st

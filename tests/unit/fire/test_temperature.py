@@ -4,10 +4,10 @@ from datetime import datetime
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.run import sun, times
 from firetwin.shot.fire import air_temperature
 from firetwin.shot.sections.thermal import BANDS
-from firetwin_core import run as runs
 from firetwin_core import sensor
 from hypothesis import given
 from hypothesis import strategies as st

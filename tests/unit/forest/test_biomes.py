@@ -6,6 +6,7 @@ from datetime import date
 import numpy as np
 import pytest
 from firetwin.run import fuel_category as categories
+from firetwin.run import opening as runs
 from firetwin.scene.forest import (
     biomes,
     cover,
@@ -22,7 +23,6 @@ from firetwin.shot.sections import Forest, TerrainSettings
 from firetwin.shot.sections import biome_names as named
 from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from small_run import FX, FY, NT, NX, NY
 
 EVERY = sorted(named.names())

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.scene.forest import plot, stand, stand_structure
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.sections import Forest, TerrainSettings
 from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
 from firetwin.shot.terrain import noise
-from firetwin_core import run as runs
 from small_run import FX, FY
 
 HALF = FX // 2

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.scene.forest import fire_effects, models, understorey
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.sections import Forest, TerrainSettings
 from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
 from small_run import FX, FY

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.scene.forest import visibility, visible_cells
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.sections import TerrainSettings
 from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from firetwin_core.terrain import bilinear
 
 TALL, REACH = 40.0, 9_000.0

@@ -17,9 +17,9 @@ import pytest
 from firetwin import cli
 from firetwin.errors import Error, InputError, UsageError
 from firetwin.jobs import convert, worker
+from firetwin.run import opening as runs
 from firetwin.run import readers
 from firetwin.run.models import heartbeat, netcdf, write
-from firetwin_core import run as runs
 
 COUNT = len(damage.CUTS) + len(damage.WAYS)  # each once; tests/system/fuzz/convert.py tries 200 of each kind
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.jobs import convert
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 
 pytest.importorskip("rasterio")
 pytest.importorskip("pyproj")

@@ -42,8 +42,8 @@ import model_files as made
 import numpy as np
 import pytest
 from firetwin.run import maps, observations
+from firetwin.run import opening as runs
 from firetwin.run.models import fuels, raster
-from firetwin_core import run as runs
 from matplotlib.collections import QuadMesh
 
 

@@ -11,10 +11,10 @@ import pytest
 from firetwin.errors import Error, InputError
 from firetwin.jobs import convert
 from firetwin.run import areas, info, released
+from firetwin.run import opening as runs
 from firetwin.run.models import fuels, heat_from_intensity
 from firetwin.run.readers import forefire
 from firetwin_core import constants
-from firetwin_core import run as runs
 
 START = made.START.replace(tzinfo=UTC)
 

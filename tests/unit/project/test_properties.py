@@ -4,8 +4,8 @@ import firetwin_core as core
 import geodesy
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin_core import lod, volume
-from firetwin_core import run as runs
 from firetwin_core.flux import at_time, emitters
 from firetwin_core.geo import LocalFrame
 from hypothesis import HealthCheck, given, settings

@@ -3,6 +3,7 @@
 import dataclasses
 from types import SimpleNamespace
 
+from firetwin.run import opening as runs
 import numpy as np
 import pytest
 from firetwin.imaging import colour_bar
@@ -14,7 +15,6 @@ from firetwin.shot.fire import air_temperature
 from firetwin.shot.sections import Thermal, Time
 from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from firetwin_core import sensor
 
 

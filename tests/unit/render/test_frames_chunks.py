@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from firetwin.jobs import render
 from firetwin.render.picture import Picture
+from firetwin.run import opening as runs
 from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
 from small_run import RUN_TOML, small_fields, write_field

@@ -2,6 +2,7 @@
 
 from datetime import UTC, datetime
 
+from firetwin.run import opening as runs
 import numpy as np
 import pytest
 from firetwin.cli import main
@@ -15,7 +16,6 @@ from firetwin.shot.sections import Time
 from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import constants, sensor
-from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -16,6 +16,7 @@ from firetwin.render import fingerprint, manifest, plan, store
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store
 from firetwin.run import content
+from firetwin.run import opening as runs
 from firetwin.shot import passes, sections
 from firetwin.shot import settings as s
 from firetwin.shot.cameras.rigs._key import CameraKey
@@ -23,7 +24,6 @@ from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.settings import code_fingerprint
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 
 CAMERAS = (
     s.Camera("drone", Drone(keys=(CameraKey(),))),

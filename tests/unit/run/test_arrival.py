@@ -3,7 +3,7 @@
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 from firetwin_core.flux import Interpolator
 from small_run import RUN_TOML
 

@@ -9,8 +9,8 @@ import firetwin.run
 import numpy as np
 import pytest
 from firetwin.errors import Error, InputError, UsageError
+from firetwin.run import opening as runs
 from firetwin.run import readers
-from firetwin_core import run as runs
 
 PAGE = Path(__file__).parents[3] / "docs/runs.md"
 START = datetime(2014, 9, 17, 19, tzinfo=UTC)

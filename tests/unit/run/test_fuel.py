@@ -5,9 +5,9 @@ from dataclasses import fields
 import numpy as np
 import pytest
 from firetwin.run import blocks, burning
+from firetwin.run import opening as runs
 from firetwin.shot.fire import fuel as fuels
 from firetwin_core import InputError
-from firetwin_core import run as runs
 from small_run import FX, FY, small_fields
 
 GRID = ("surface_fuel", "canopy_fuel", "fuel_elevation")

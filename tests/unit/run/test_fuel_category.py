@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from firetwin.run import fuel_category as categories
 from firetwin.run import info
+from firetwin.run import opening as runs
 from firetwin.run.models import fuels
 from firetwin.shot.sections import TerrainSettings
 from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import Error, InputError
-from firetwin_core import run as runs
 from small_run import FX, FY
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.run import areas, blocks, content, fact_cache, info, maps, thumbnails
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 from PIL import Image
 from small_run import FX, FY, small_fields
 

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.jobs import convert
+from firetwin.run import opening as runs
 from firetwin.run import readers
-from firetwin_core import run as runs
 
 ARRIVAL = np.hypot(*np.mgrid[-8:9, -8:9]) * 30.0
 

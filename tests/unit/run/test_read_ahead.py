@@ -6,7 +6,7 @@ import threading
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 from small_run import small_fields
 
 

@@ -3,8 +3,8 @@
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin.run import info, readers
-from firetwin_core import run as runs
+from firetwin.run import description, info, readers
+from firetwin.run import opening as runs
 from small_run import RUN_TOML, small_fields
 
 
@@ -46,7 +46,7 @@ def test_what_run_toml_says(make_run):
 def test_defaults(make_run):
     run = runs.open(make_run(toml="start = 2014-01-01T00:00:00.5+05:30\ntimes_s = [0, 1.5, 9]\n"))
     assert (run.name, run.event, run.synthetic, run.vertical) == ("run", "", False, "orthometric")
-    assert run.start == "2013-12-31T18:30:00.500000000Z"
+    assert run.start == "2013-12-31T18:30:00.500000Z"
     np.testing.assert_array_equal(run.times, [0.0, 1.5, 9.0])
     assert len(run.warnings) == 1
     assert "vertical" in run.warnings[0]
@@ -289,3 +289,7 @@ def test_times_that_are_no_dates_are_refused(make_run, text):
     (folder / "run.toml").write_text(text)
     with pytest.raises(core.InputError, match="has times outside of the years 1000 to 9998; correct"):
         readers.open(folder)
+
+
+def test_every_field_has_a_unit():
+    assert set(description.UNITS) == set(core.run.FIELDS)

@@ -1,6 +1,6 @@
 """Hostile and odd inputs: each has one defined outcome, and none ends the process.
 
-Rejections of single readers are in test_text, test_npy, test_manifest and test_run_errors.
+Rejections of single readers are in test_text, test_npy and test_run_errors.
 """
 
 import os
@@ -9,7 +9,7 @@ from pathlib import Path
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 from firetwin_core.flux import at_time, emitters
 from firetwin_core.geo import LocalFrame
 from small_run import NT, NX, NY, RUN_TOML, small_fields
@@ -72,9 +72,9 @@ def test_junk_in_place_of_a_file(make_run, file, name):
         ('name = """a\\\n \u00b2"""\n', 0, "start must be a date"),
         ("start = 2014-02-30T00:00:00Z\n", 1, "not valid TOML"),
         ("start = 2014-09-16T24:00:00Z\n", 1, "not valid TOML"),
-        ('"two\\nlines" = 1\n', 1, r"unknown key 'two\\x0alines'"),
+        ('"two\\nlines" = 1\n', 1, r"unknown key 'two\\nlines'"),
         ('"\\u001b[31m" = 1\n', 1, r"unknown key '\\x1b\[31m'"),
-        ('"' + "k" * 100_000 + '" = 1\n', 1, r"unknown key 'kkk.*\.\.\.$"),
+        ('"' + "k" * 100_000 + '" = 1\n', 1, r"unknown key 'kkk.*\.\.\.'; remove"),
         (f"{START}\ninterval_s = 1e308\n", 0, "interval_s is so long"),
         (f"{START}\ninterval_s = -60\n", 2, "above 0"),
         (f"{START}\ntimes_s = []\n", 2, "strictly ascending"),

@@ -8,8 +8,9 @@ from pathlib import Path
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 from firetwin_core.flux import at_time
+from firetwin_core.run import read_grid
 
 ODD = os.fsdecode(b"run\xff")
 
@@ -56,7 +57,7 @@ def test_errors_name_the_file(odd):
     with pytest.raises(core.InputError, match=r"run\\xff/no/such"):
         runs.open(odd / "no" / "such")
     with pytest.raises(core.InputError, match=r"run\\xff/none\.txt"):
-        runs.read_grid(odd / "none.txt")
+        read_grid(odd / "none.txt")
 
 
 @pytest.mark.parametrize("arguments", [["info"], ["info", "--json"]])

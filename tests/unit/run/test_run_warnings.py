@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import whole_run
 from firetwin.run import burning, info, released, run_warnings
+from firetwin.run import opening as runs
 from firetwin.shot.fire import long_burning, smoke_scale
 from firetwin.shot.fire.fire import Fire
-from firetwin_core import run as runs
 
 
 @pytest.fixture

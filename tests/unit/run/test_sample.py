@@ -7,6 +7,7 @@ import firetwin_core
 import numpy as np
 import pytest
 from firetwin.data import air, grid, history, release, sample, stored, weather
+from firetwin.run import opening
 
 JOULES_PER_KG = 17.433e6
 CELLS = 720 * 720
@@ -234,7 +235,7 @@ def _edge(folder):
 
 
 def test_the_core_opens_it(folder, store):
-    run = firetwin_core.run.open(folder)
+    run = opening.open(folder)
     assert run.name == "King Fire 2014 (synthetic sample)"
     assert run.synthetic
     assert run.event == "king_fire"
@@ -275,7 +276,7 @@ def test_the_same_every_time(folder, tmp_path):
 def test_text_and_npy_agree(folder, tmp_path):
     out = tmp_path / "text"
     sample.write(out, frames=5, format="text")
-    text, npy = firetwin_core.run.open(out), firetwin_core.run.open(folder)
+    text, npy = opening.open(out), opening.open(folder)
     np.testing.assert_array_equal(text.times, npy.times)
     np.testing.assert_allclose(text.heat_flux(3), npy.heat_flux(3), atol=0.501)
     np.testing.assert_allclose(text.temperature(3), npy.temperature(3), atol=0.0501)

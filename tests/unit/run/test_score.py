@@ -17,12 +17,12 @@ from fires import LATITUDE, LONGITUDE, axes, circle, degrees, geojson, round_fir
 from firetwin.errors import UsageError
 from firetwin.html_text import quote
 from firetwin.run import observations, readers
+from firetwin.run import opening as runs
 from firetwin.run import score as scores
 from firetwin.run.observations import Perimeter
 from firetwin.run.score import arrival, page, plots, report, shapes
 from firetwin.run.score.grid import ScoreGrid
 from firetwin.run.score.overlap import Overlap
-from firetwin_core import run as runs
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis_profiles import examples

@@ -4,8 +4,8 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.run import sun, times
-from firetwin_core import run as runs
 
 FULL, NEW = datetime(2014, 9, 9, 8, tzinfo=UTC), datetime(2014, 9, 24, 20, tzinfo=UTC)
 """Hours after full moon (9 September, 1:38) and new moon (24 September, 6:14), with it up in California."""

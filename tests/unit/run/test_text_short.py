@@ -5,8 +5,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin_core import InputError
-from firetwin_core import run as runs
+from firetwin_core.run import read_grid
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis_profiles import examples
@@ -20,7 +21,7 @@ def read(tmp_path_factory):
 
     def read(words):
         path.write_text(" ".join(words) + AFTER)
-        return runs.read_grid(path)[0]
+        return read_grid(path)[0]
 
     return read
 

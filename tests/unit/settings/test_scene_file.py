@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 from any_settings import any_table
+from firetwin import toml_text as places
 from firetwin.errors import InputError
 from firetwin.shot import schema
 from firetwin.shot.cameras.rigs import kinds
 from firetwin.shot.schema import scene_text
-from firetwin.shot.schema import toml_positions as places
 from firetwin.shot.schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
 from firetwin.shot.schema.frame_list import FrameList
 from firetwin.shot.sections import TerrainSettings, Time
@@ -429,11 +429,11 @@ def test_former_names_of_sections_are_read_and_noted(tmp_path):
     )
     path.write_text(f"[tiles]\nerror = 3.0\n{now} = 3.0\n")
     with pytest.raises(
-        scene_file.InputError, match=rf":3:1: tiles\.error is the former name of tiles\.{now}"
+        InputError, match=rf":3:1: tiles\.error is the former name of tiles\.{now}"
     ):
         scene_file.read(path)
     path.write_text("[ground]\napron = -1.0\n")
-    with pytest.raises(scene_file.InputError, match=r":2:1: terrain\.apron"):
+    with pytest.raises(InputError, match=r":2:1: terrain\.apron"):
         scene_file.read(path)
 
 
@@ -460,7 +460,7 @@ def test_a_removed_key_is_noted_at_its_default_and_an_error_otherwise(tmp_path, 
     assert replace(found, notes=()) == scene_file.read(path)
     path.write_text(f"[{section}]\n{key} = {other}\n")
     gone = rf":2:1: {section}\.{key} was removed: .*; delete the line"
-    with pytest.raises(scene_file.InputError, match=gone):
+    with pytest.raises(InputError, match=gone):
         scene_file.read(path)
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import jsonschema
 import pytest
+from firetwin.errors import InputError
 from firetwin.shot import passes, schema
 from firetwin.shot.cameras.rigs import kinds
 from firetwin.shot.cameras.rigs._key import CameraKey
@@ -235,6 +236,6 @@ REFUSED = [
 def test_the_json_schema_refuses_what_the_reader_refuses(tmp_path, text):
     path = tmp_path / "scene.toml"
     path.write_text(text)
-    with pytest.raises(scene_file.InputError):
+    with pytest.raises(InputError):
         scene_file.read(path)
     assert not VALIDATOR.is_valid(as_json(tomllib.loads(text)))

@@ -5,10 +5,10 @@ from datetime import UTC, datetime, timedelta
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import Settings, scene_file
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
 from small_run import RUN_TOML, small_fields, write_field

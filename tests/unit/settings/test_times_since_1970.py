@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.scene.fire import flames
 from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.fire.fire import Fire
@@ -13,7 +14,6 @@ from firetwin.shot.sections import FireSettings as FireSettings
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
-from firetwin_core import run as runs
 from small_run import FX, FY, RUN_TOML, write_field
 
 ZERO = 1_410_929_100  # s from 1970 to 2014-09-17T04:45:00Z

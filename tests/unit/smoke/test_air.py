@@ -7,7 +7,7 @@ import pytest
 from firetwin.shot import frames
 from firetwin.shot.sections import Time
 from firetwin.smoke import atmosphere
-from firetwin_core import run as runs
+from firetwin.run import opening as runs
 
 
 @pytest.mark.parametrize("sun", [-40.0, -4.0, 0.0, 50.0])

@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from firetwin.run import areas
+from firetwin.run import opening as runs
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.fire.smoke_scale import Scale
 from firetwin.shot.light import exposure
@@ -13,7 +14,6 @@ from firetwin.shot.sections import Time
 from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import domains
-from firetwin_core import run as runs
 from small_run import RUN_TOML
 
 CELLS, TIMES = 40, 9

@@ -106,7 +106,7 @@ def test_clean_air_at_the_run_in_a_smoky_forecast_is_clean(tmp_path):
 
 
 def test_the_map_has_the_column(make_run):
-    from firetwin_core import run as runs
+    from firetwin.run import opening as runs
 
     run = runs.open(make_run())
     column = np.full(run.elevation.shape, 150.0)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from fires import axes, round_fire
+from firetwin.run import opening as runs
 from firetwin.shot.fire import smoke_scale
 from firetwin.shot.fire.smoke_scale import FINER, REFERENCE, Scale
-from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -4,11 +4,11 @@ from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
 import pytest
+from firetwin.run import opening as runs
 from firetwin.shot.sections import SmokeSettings, TerrainSettings, Time
 from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import shutter, sources
-from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
 from small_run import RUN_TOML, small_fields, write_field

@@ -10,12 +10,12 @@ from firetwin.errors import Error
 from firetwin.render import plan
 from firetwin.render.picture import Picture
 from firetwin.run import burning
+from firetwin.run import opening as runs
 from firetwin.shot.sections import SmokeSettings, Time
 from firetwin.shot.sections.smoke import SMOKE_METHODS
 from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake, sources
-from firetwin_core import run as runs
 
 ADDON = Path(inspect.getfile(sources)).parents[2]
 KNOWN = sources.known()

@@ -3,7 +3,8 @@
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin_core import Error, InputError, geo, lod, run, volume
+from firetwin.run import opening
+from firetwin_core import Error, InputError, geo, lod, volume
 from plumes import read
 from small_run import NT, NX, NY, RUN_TOML, small_fields
 
@@ -266,7 +267,7 @@ def test_a_run_reads_fields_on_levels(tmp_path):
     smoke = rng.random(LEVELS).astype(np.float32)
     smoke[0, 1, 2, 3] = -9999.0
     height = np.sort(rng.random(LEVELS[1:]), axis=0).astype(np.float32)
-    found = run.open(with_levels(tmp_path / "run", smoke_3d=smoke, height_3d=height))
+    found = opening.open(with_levels(tmp_path / "run", smoke_3d=smoke, height_3d=height))
     assert found.has("smoke_3d")
     assert not found.has("temperature_3d")
     smoke[0, 1, 2, 3] = np.nan
@@ -299,18 +300,18 @@ def test_a_run_reads_fields_on_levels(tmp_path):
 def test_fields_that_do_not_fit_are_named(tmp_path, fields, message):
     arrays = {name: np.ones(shape, np.float32) for name, shape in fields.items()}
     with pytest.raises(InputError, match=message):
-        run.open(with_levels(tmp_path / "run", **arrays))
+        opening.open(with_levels(tmp_path / "run", **arrays))
 
 
 def test_fields_on_levels_are_npy_only(tmp_path):
     folder = with_levels(tmp_path / "run")
     (folder / "smoke_3d").mkdir()
     with pytest.raises(InputError, match=r"numpy\.save"):
-        run.open(folder)
+        opening.open(folder)
     (folder / "smoke_3d").rmdir()
     with (folder / "smoke_3d.npy").open("wb") as file:  # a header that lies
         np.lib.format.write_array_header_1_0(
             file, {"descr": "<f4", "fortran_order": False, "shape": (NT, 10**9, NY, NX)}
         )
     with pytest.raises(InputError, match="copy or save"):
-        run.open(folder)
+        opening.open(folder)

@@ -8,6 +8,7 @@ import pytest
 import small_stations
 from firetwin import limits
 from firetwin.errors import InputError
+from firetwin.run import opening as runs
 from firetwin.run import times
 from firetwin.shot.sections import LabelSettings, StationSettings
 from firetwin.shot.settings import scene_file
@@ -15,7 +16,6 @@ from firetwin.shot.shot import Shot
 from firetwin.shot.stations import labels, station_signs
 from firetwin.stations import describe, fire_arrival, measures, reading
 from firetwin.stations.records import EXERCISE, Station
-from firetwin_core import run as runs
 
 ROWS = [
     (1, "Fact Station", 38.9030, -120.5920, "fire station", "fact"),

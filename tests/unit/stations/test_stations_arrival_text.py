@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.stations import arrival_text, fire_arrival
-from firetwin_core import run as runs
 from small_run import small_fields
 
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from firetwin import cli
 from firetwin.commands import _fire
+from firetwin.run import opening as runs
 from firetwin.run import times
 from firetwin.stations import fire_arrival, page, reading, search, station_search, writing
 from firetwin.stations.arguments import _length, parse_types
 from firetwin.stations.query import Query
 from firetwin.stations.records import EXERCISE
-from firetwin_core import run as runs
 from random_stations import CENTRE, NOON, random_stations
 from small_run import RUN_TOML, small_fields
 from station_files import write_hifld

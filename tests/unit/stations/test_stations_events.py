@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.run import times
 from firetwin.run.labels import Label
 from firetwin.stations import events, fire_arrival
-from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
 

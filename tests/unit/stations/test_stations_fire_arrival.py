@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from firetwin.run import front, times
+from firetwin.run import opening as runs
 from firetwin.stations import fire_arrival
 from firetwin.stations.distance import distance_km
-from firetwin_core import run as runs
 from small_run import small_fields
 
 

@@ -6,10 +6,10 @@ import sqlite3
 import numpy as np
 import pytest
 from firetwin.errors import InputError
+from firetwin.run import opening as runs
 from firetwin.run.observations import features
 from firetwin.shot.source import ShotSource
 from firetwin.shot.surface import land_drawing, land_kinds, land_use
-from firetwin_core import run as runs
 from scene_text import GROUND_ALONE
 
 WEST, SOUTH, EAST, NORTH = -120.596, 38.902, -120.588, 38.908

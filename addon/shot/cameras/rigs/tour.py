@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....did_you_mean import suggestion
 from ....run import labels
 from ...schema import Where, key
 from ...schema.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
-from ...schema.did_you_mean import suggestion
 from .. import flight, path, targets
 from ..path import Array, Path
 from ._lens import LensRig

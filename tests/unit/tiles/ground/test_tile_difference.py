@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.run.frame import local_frame
+from firetwin.run.opening import open as open_run
 from firetwin.shot.settings import Settings
 from firetwin.shot.terrain.tile_heights import Surface, TileHeights
 from firetwin.shot.tiles import tile_difference
-from firetwin_core.run import open as open_run
 
 
 def tiles_at(run, low, height):

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.run.frame import local_frame
+from firetwin.run.opening import open as open_run
 from firetwin.shot.sections import TerrainSettings
 from firetwin.shot.settings import Settings
 from firetwin.shot.terrain.elevation import Elevation, _Stacked
 from firetwin.shot.terrain.terrain import Terrain
 from firetwin.shot.terrain.tile_heights import Surface, TileHeights
-from firetwin_core.run import open as open_run
 
 STEP, SIDE, OFF = 4.0, 120, 6.0  # m, points, m
 

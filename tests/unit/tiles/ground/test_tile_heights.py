@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from firetwin.errors import InputError
+from firetwin.run.opening import open as open_run
 from firetwin.shot.terrain import tile_heights
 from firetwin.tiles.decoded import Decoded, TileSummary
 from firetwin_core import geo, tiles
-from firetwin_core.run import open as open_run
 from hypothesis import given
 from hypothesis import strategies as st
 

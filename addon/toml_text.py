@@ -1,11 +1,23 @@
-"""Line and column of each key of a TOML text, for error messages; tomllib gives values only."""
+"""TOML texts: values by tomllib, and the line and column of each key for error messages."""
 
 from __future__ import annotations
 
 import re
 import tomllib
+from os import PathLike
+from typing import Any
+
+from .errors import InputError, input_error
 
 Where = tuple[str | int, ...]
+
+_PARTS = 8
+_DOTS = re.compile(rf"(?:\.[^.\n]*){{{_PARTS}}}")
+_TOKEN = re.compile(
+    r'"""(?:[^\\]|\\.)*?(?:"{3,5}|\Z)|\'\'\'.*?(?:\'{3,5}|\Z)'
+    r'|"(?:[^"\\\n]|\\.)*"?|\'[^\'\n]*\'?|#[^\n]*|[.\n=,]',
+    re.DOTALL,
+)
 
 _GAP = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -145,6 +157,40 @@ class _Scan:
             self._skip()
 
 
+def loads(path: str | PathLike[str], text: str) -> dict[str, Any]:
+    """Parse TOML as if it were the file `path`.
+
+    Raises
+    ------
+    InputError
+        It is not valid TOML, or a key has more than eight parts: tomllib's time grows with their square.
+    """
+    if _DOTS.search(text):
+        _check_keys(path, text)
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise _syntax_error(path, text, str(error)) from None
+
+
+def _check_keys(path: str | PathLike[str], text: str) -> None:
+    dots = 0
+    for token in _TOKEN.finditer(text):
+        dots = dots + 1 if token[0] == "." else 0 if token[0] in "\n=," else dots
+        if dots == _PARTS:
+            line, column = _line_and_column(text, token.start())
+            reason = "has a key of more than eight parts; write keys like units.elevation"
+            raise input_error(path, reason, line=line, column=column)
+
+
+def _syntax_error(path: str | PathLike[str], text: str, message: str) -> InputError:
+    """Syntax error; tomllib's messages end in "(at line 3, column 7)" or "(at end of document)"."""
+    match = re.search(r" \(at line (\d+), column (\d+)\)$", message)
+    reason = re.sub(r" \(at .*\)$", "", message)
+    line, column = (int(match[1]), int(match[2])) if match else (max(1, len(text.splitlines())), 0)
+    return input_error(path, f"not valid TOML: {reason[:1].lower()}{reason[1:]}", line=line, column=column)
+
+
 def places(text: str) -> dict[Where, tuple[int, int]]:
     """Line and column (1-based) of every key and array element in a valid TOML text.
 
@@ -153,6 +199,15 @@ def places(text: str) -> dict[Where, tuple[int, int]]:
     scan = _Scan(text)
     scan.document()
     return {path: _line_and_column(text, offset) for path, offset in scan.offsets.items()}
+
+
+def place(text: str, where: Where) -> tuple[int, int]:
+    """Line and column (1-based) of a key, or of the nearest enclosing table; (0, 0) without one."""
+    scan = _Scan(text)
+    scan.document()
+    while where and where not in scan.offsets:
+        where = where[:-1]
+    return _line_and_column(text, scan.offsets[where]) if where else (0, 0)
 
 
 def tables(text: str) -> list[tuple[Where, int, int]]:
