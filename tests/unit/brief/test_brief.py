@@ -31,6 +31,7 @@ from firetwin.errors import InputError, UsageError
 from firetwin.imaging import map_symbols
 from firetwin.render import manifest
 from firetwin.run import content
+from firetwin.run import opening as runs
 from firetwin.run.score import report
 from firetwin.stations import fire_arrival, reading
 from page_parts import PageParts
