@@ -17,13 +17,13 @@ from firetwin.bench import march
 from firetwin.bench.harness import OURS, Bench
 from firetwin.bench.timing import Stopwatch, Times
 from firetwin.data import sample
+from firetwin.run import opening as runs
 from firetwin.run.areas import metres_per_degree
 from firetwin.shot import sections, settings
 from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.shot import Shot
 from firetwin.smoke import sources
-from firetwin.run import opening as runs
 from firetwin_core import volume
 from numpy.typing import NDArray
 

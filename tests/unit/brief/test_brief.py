@@ -9,7 +9,6 @@ import sqlite3
 from dataclasses import replace
 from pathlib import Path
 
-from firetwin.run import opening as runs
 import numpy as np
 import pytest
 import small_stations

@@ -3,7 +3,6 @@
 import json
 from dataclasses import replace
 
-from firetwin.run import opening as runs
 import numpy as np
 import pytest
 from firetwin.errors import InputError, UsageError
@@ -14,6 +13,7 @@ from firetwin.render import dataset, fingerprint, plan, verify
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
 from firetwin.run import info
+from firetwin.run import opening as runs
 from firetwin.shot import exr_tags, passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey

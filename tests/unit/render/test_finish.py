@@ -3,11 +3,11 @@
 import dataclasses
 from types import SimpleNamespace
 
-from firetwin.run import opening as runs
 import numpy as np
 import pytest
 from firetwin.imaging import colour_bar
 from firetwin.passes import thermal as thermal_pass
+from firetwin.run import opening as runs
 from firetwin.shot import exr_tags, passes
 from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.path import Path

@@ -2,10 +2,10 @@
 
 from datetime import UTC, datetime
 
-from firetwin.run import opening as runs
 import numpy as np
 import pytest
 from firetwin.cli import main
+from firetwin.run import opening as runs
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.fire import air_temperature
