@@ -12,7 +12,6 @@ from firetwin.scene.fire import flames
 from firetwin.shot.fire import flame_map
 from firetwin.shot.sections import FireSettings
 from firetwin.shot.shot import Shot
-from firetwin.run import opening as runs
 
 
 @pytest.fixture

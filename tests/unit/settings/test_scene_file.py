@@ -428,9 +428,7 @@ def test_former_names_of_sections_are_read_and_noted(tmp_path):
         f"{path}:2:1: tiles.error is called tiles.{now} now; the old name is read in this version only",
     )
     path.write_text(f"[tiles]\nerror = 3.0\n{now} = 3.0\n")
-    with pytest.raises(
-        InputError, match=rf":3:1: tiles\.error is the former name of tiles\.{now}"
-    ):
+    with pytest.raises(InputError, match=rf":3:1: tiles\.error is the former name of tiles\.{now}"):
         scene_file.read(path)
     path.write_text("[ground]\napron = -1.0\n")
     with pytest.raises(InputError, match=r":2:1: terrain\.apron"):

@@ -4,10 +4,10 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from firetwin.run import opening as runs
 from firetwin.shot import frames
 from firetwin.shot.sections import Time
 from firetwin.smoke import atmosphere
-from firetwin.run import opening as runs
 
 
 @pytest.mark.parametrize("sun", [-40.0, -4.0, 0.0, 50.0])
