@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import bpy
+import levels_run
 import numpy as np
 import pytest
 from firetwin.render import layers
@@ -10,12 +11,18 @@ from firetwin.scene import build
 from firetwin.shot.sections import SmokeSettings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake
+from firetwin_core import run as runs
+
+
+@pytest.fixture
+def run(run_folder, tmp_path):
+    """The small run, with smoke on levels, which Cycles draws."""
+    return runs.open(levels_run.write(run_folder, tmp_path / "run"))
 
 
 @pytest.fixture
 def smoky(settings):
-    """The small scene with preview smoke, which Cycles draws."""
-    return replace(settings, smoke=SmokeSettings(method="preview", draw="volume", voxel_size=120.0))
+    return replace(settings, smoke=SmokeSettings(voxel_size=120.0))
 
 
 @pytest.fixture
