@@ -7,11 +7,11 @@ import levels_run
 import numpy as np
 import pytest
 from firetwin.render import layers
+from firetwin.run import opening as runs
 from firetwin.scene import build
 from firetwin.shot.sections import SmokeSettings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake
-from firetwin_core import run as runs
 
 
 @pytest.fixture
