@@ -97,7 +97,7 @@ def test_members_belong_to_the_run_of_the_film(make_run, tmp_path):
     path = tmp_path / "film.toml"
     path.write_text(f'run = "{make_run()}"\n[[runs]]\npath = "other"\nname = "other"\n')
     inputs = [content.inputs(readers.open(tmp_path / name), tmp_path / "cache") for name in ("run", "other")]
-    out = finish(tmp_path / "film", inputs[0], beside={"other": inputs[1]}, members={"member 1": "2" * 64})
+    out = finish(tmp_path / "film", inputs[0], beside={"other": inputs[1]}, further={"member 1": "2" * 64})
     assert cli.main(["cite", str(path), "--crate", str(out)]) == 0
     found = entities(out)
     runs = [found[run] for run in ids(found["#render"]["object"])]
