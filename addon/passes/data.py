@@ -133,12 +133,12 @@ def mark_trees(surface: Array, instance: Array, clear: Array) -> tuple[Array, di
     number = np.where(np.isin(surface, (TREE, FIRE)), instance, 0.0).astype(np.int64)
     present, place = np.unique(number, return_inverse=True)
     names = [f"tree_{each:08d}" for each in present.tolist()]
-    known = cryptomatte.identify(names)
-    held = known[place.reshape(number.shape)]
+    hashes = cryptomatte.identify(names)
+    held = hashes[place.reshape(number.shape)]
     cover = np.where(number > 0, clear, 0.0).astype(np.float32)
     held, cover = (np.pad(each, 1, mode="edge") for each in (held, cover))
     height, width = number.shape
-    found = np.empty((height, width, 2 * cryptomatte.RANKS), np.float32)
+    layers = np.empty((height, width, 2 * cryptomatte.RANKS), np.float32)
     for top in range(0, height, _ROWS):
         rows = min(_ROWS, height - top)
         around = (
@@ -146,5 +146,5 @@ def mark_trees(surface: Array, instance: Array, clear: Array) -> tuple[Array, di
             for each in (held, cover)
         )
         numbers, shares = around
-        found[top : top + rows] = cryptomatte.ranked(numbers, shares * _WEIGHTS)
-    return found, {name: each for name, each in zip(names, known, strict=True) if name != "tree_00000000"}
+        layers[top : top + rows] = cryptomatte.ranked(numbers, shares * _WEIGHTS)
+    return layers, {name: each for name, each in zip(names, hashes, strict=True) if name != "tree_00000000"}

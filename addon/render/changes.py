@@ -53,23 +53,23 @@ def of_film(before: dict[str, Any] | None, now: dict[str, Any]) -> list[str]:
     """List what differs between the inputs of a film, in words."""
     if before is None:
         return ["new"]
-    found = []
+    changes = []
     if "timecode" not in before:
-        found.append("had no timecode track")
+        changes.append("had no timecode track")
     if (codec := before.get("codec", "h264")) != now["codec"]:
-        found.append(f"codec was {codec}")
+        changes.append(f"codec was {codec}")
     if (rate := _rate(before["fps"])) != _rate(now["fps"]):
-        found.append(f"had {timecode.format_rate(rate)} frames per second")
+        changes.append(f"had {timecode.format_rate(rate)} frames per second")
     if before.get("captions") != now["captions"]:
-        found.append("other captions")
+        changes.append("other captions")
     if before.get("slate") != now.get("slate"):
-        found.append("other slate" if now.get("slate") else "had a slate")
+        changes.append("other slate" if now.get("slate") else "had a slate")
     old, new = dict(before["frames"]), dict(now["frames"])
     if old.keys() != new.keys():
-        found.append(f"had {count(len(old), 'picture')}, now {len(new)}")
+        changes.append(f"had {count(len(old), 'picture')}, now {len(new)}")
     if changed := sum(old[frame] != new[frame] for frame in old.keys() & new.keys()):
-        found.append(f"{changed} of {count(len(new), 'picture')} rendered again")
-    return found or ["missing or damaged"]
+        changes.append(f"{changed} of {count(len(new), 'picture')} rendered again")
+    return changes or ["missing or damaged"]
 
 
 def describe_films(films: Iterable[tuple[str, list[str]]]) -> str:
@@ -89,14 +89,14 @@ def join_names(names: Sequence[str]) -> str:
 
 def _differing(old: dict[str, Any], new: dict[str, Any], prefix: str = "") -> list[str]:
     """List the dotted names of values that differ."""
-    found = []
+    keys = []
     for name in sorted(old.keys() | new.keys()):
         one, other = old.get(name), new.get(name)
         if isinstance(one, dict) and isinstance(other, dict):
-            found += _differing(one, other, f"{prefix}{name}.")
+            keys += _differing(one, other, f"{prefix}{name}.")
         elif one != other:
-            found.append(prefix + name)
-    return found
+            keys.append(prefix + name)
+    return keys
 
 
 def _rate(stored: float | str) -> Fraction:

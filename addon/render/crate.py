@@ -108,7 +108,7 @@ def _inputs(
     InputError
         A picture shows another run.
     """
-    found = dict[str, Hashes]()
+    inputs = dict[str, Hashes]()
     for made_with in settings.values():
         run = made_with.get("run")
         further = made_with.get("further", {})  # files of the scene file
@@ -119,8 +119,8 @@ def _inputs(
             if label is None:
                 reason = "lists a picture of another run; name the scene file of this film"
                 raise input_error(out / manifest.NAME, reason)
-            found[label] = found.get(label, {}) | hashes
-    return found
+            inputs[label] = inputs.get(label, {}) | hashes
+    return inputs
 
 
 def _agree(hashes: Hashes, fields: Mapping[str, str]) -> bool:
@@ -148,7 +148,7 @@ def _file(name: str, entry: Mapping[str, Any]) -> Entity:
     """Describe a finished file of a camera and a pass."""
     frame = f", frame {entry['frame']}" if "frame" in entry else ""
     kind = f", {entry['film']} film" if "film" in entry else ""
-    made = {
+    entity = {
         "@id": quote(name),
         "@type": "File",
         "name": f"{entry.get('camera', 'film')}, pass {entry.get('pass', 'unknown')}{frame}{kind}",
@@ -161,7 +161,7 @@ def _file(name: str, entry: Mapping[str, Any]) -> Entity:
         "temporalCoverage": entry.get("time"),
         "creditText": "; ".join(entry.get("credits", ())),
     }
-    return made | {key: value for key, value in more.items() if value}
+    return entity | {key: value for key, value in more.items() if value}
 
 
 def _manifest(out: Path) -> Entity:

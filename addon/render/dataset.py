@@ -26,13 +26,13 @@ _LENS = {"width": "w", "height": "h", "fx": "fl_x", "fy": "fl_y", "cx": "cx", "c
 
 def write(store: Store) -> None:
     """Write the index of every camera that has sidecars."""
-    found: dict[tuple[str, str], dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
+    files_of: dict[tuple[str, str], dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
     for name in store.names():
         camera, kind, *rest = PurePosixPath(name).parts
         if rest:  # films lie next to the folders of passes
-            found[camera, PurePosixPath(name).stem[-6:]][kind].append(f"{kind}/{rest[0]}")
+            files_of[camera, PurePosixPath(name).stem[-6:]][kind].append(f"{kind}/{rest[0]}")
     frames: dict[str, list[dict[str, Any]]] = defaultdict(list)
-    for (camera, _), passes in sorted(found.items()):
+    for (camera, _), passes in sorted(files_of.items()):
         shown = next((path for path in passes.get("rgb", ()) if path.endswith(".png")), None)
         if shown and "pose" in passes and (frame := _frame(store.out / camera, shown, passes)):
             frames[camera].append(frame)

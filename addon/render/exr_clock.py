@@ -78,11 +78,11 @@ def rewrite(path: Path, times: dict[str, Any]) -> None:
 
 def _read_header(data: bytes) -> tuple[dict[str, bytes], int]:
     """Return type, size and value of the attributes by name, as stored, and the position after the header."""
-    found, place = {}, _PREAMBLE
+    attributes, place = {}, _PREAMBLE
     while data[place]:
         start = data.index(b"\0", place) + 1
         size = data.index(b"\0", start) + 1
         end = size + 4 + struct.unpack_from("<i", data, size)[0]
-        found[data[place : start - 1].decode()] = data[start:end]
+        attributes[data[place : start - 1].decode()] = data[start:end]
         place = end
-    return found, place + 1
+    return attributes, place + 1

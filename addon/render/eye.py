@@ -230,14 +230,14 @@ class Eye:
         """Return the distances (h, w) up to opaque flames or `ends`, m, and a mask of the opaque flames."""
         origins, directions = _lines(self.rays)
         reached, first = np.minimum(ends, _FARTHEST).reshape(-1, 1), ends.ravel().copy()
-        found = volume.march([], origins, directions, reached, self._light, _STEP, flames=self.outline)
-        near = found[:, 0, 3] < _THIN
+        marched = volume.march([], origins, directions, reached, self._light, _STEP, flames=self.outline)
+        near = marched[:, 0, 3] < _THIN
         burning = np.zeros(len(near), bool)
         if near.any():
             at = reached[near] * np.geomspace(_NEAREST, 1.0, _TAPS)
             lines = origins if origins.ndim == 1 else origins[near], directions[near]
-            found = volume.march([], *lines, at, self._light, _STEP, flames=self.flames)
-            opaque = found[..., 3] < masks.HIDES
+            marched = volume.march([], *lines, at, self._light, _STEP, flames=self.flames)
+            opaque = marched[..., 3] < masks.HIDES
             burning[near] = opaque[:, -1]
             first[near] = np.where(opaque[:, -1], at[np.arange(len(at)), opaque.argmax(axis=1)], first[near])
         return first.reshape(self.shape), burning.reshape(self.shape)

@@ -73,14 +73,14 @@ def changes_of(shot: Shot, store: Store, made_with: Fingerprints) -> list[tuple[
 
 def left_over(shot: Shot, store: Store, made_with: Fingerprints) -> list[str]:
     """List earlier films of these cameras and passes whose kind or codec is not wanted any more."""
-    found = []
+    pictures = []
     for camera, name in made_with:
         every = {film(camera, name)} | {film(camera, name, "clean", each) for each in ("h264", "prores")}
         wanted = {film(camera, name, kind, codec(shot, kind)) for kind in kinds(shot)}
-        found += [
+        pictures += [
             path for path in sorted(every - wanted) if store.inputs_of(path) and (store.out / path).is_file()
         ]
-    return found
+    return pictures
 
 
 def path_of(film_inputs: dict[str, Any]) -> str:

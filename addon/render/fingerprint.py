@@ -150,15 +150,15 @@ def _tiles(shot: Shot, view: str, name: str, find: tile_cut.Finder) -> dict[str,
         return {}
     cuts = tile_cut.of_pass(shot, view, name, find)
     words = picture_credits.of_cuts(shot.settings, cuts)
-    found: dict[str, Any] = {}
+    used: dict[str, Any] = {}
     if words:
-        found["credits"] = {"data": list(words.data), "logo": list(words.logo)}
+        used["credits"] = {"data": list(words.data), "logo": list(words.logo)}
     if cuts:
-        found["tiles"] = {
+        used["tiles"] = {
             "chosen": fingerprint({"tiles": [cut.tiles for cut in cuts]}),
             "missing": sorted({reason.partition(": ")[0] for cut in cuts for reason in cut.missing}),
         }
-    return found
+    return used
 
 
 def _other_runs(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:

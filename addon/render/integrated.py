@@ -106,7 +106,7 @@ class IntegratedRenderer:
             Eye(
                 self.shot,
                 self.stage,
-                found[first],
+                channels[first],
                 number,
                 smoke,
                 flames,
@@ -114,7 +114,7 @@ class IntegratedRenderer:
                 flame_distance=distance,
                 parts=bool(marched),
             )
-            for number, found in rendered
+            for number, channels in rendered
         ]
         if "rgb" in pictures:
             with self.cost.part(frame_cost.MARCH):

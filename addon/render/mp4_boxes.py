@@ -54,16 +54,16 @@ def rewrite(path: Path, edit: Callable[[bytes], bytes], more: bytes = b"") -> No
     """
     part = path.with_name(path.name + ".part")
     try:
-        with path.open("rb") as film, part.open("wb") as made:
+        with path.open("rb") as film, part.open("wb") as edited_film:
             for kind, start, end in of_file(film, path.stat().st_size):
                 film.seek(start)
                 if kind == b"moov":
                     body = film.read(end - start)[8:]
                     edited = edit(body)
-                    made.write(make(kind, _shift(edited, end, len(edited) - len(body))))
+                    edited_film.write(make(kind, _shift(edited, end, len(edited) - len(body))))
                 else:
-                    _copy(film, made, end - start)
-            made.write(more)
+                    _copy(film, edited_film, end - start)
+            edited_film.write(more)
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
@@ -84,6 +84,6 @@ def _shift(body: bytes, end: int, growth: int) -> bytes:
     return shifted
 
 
-def _copy(film: BinaryIO, made: BinaryIO, count: int) -> None:
+def _copy(film: BinaryIO, target: BinaryIO, count: int) -> None:
     while count > 0:
-        count -= made.write(film.read(min(count, 2**20)))
+        count -= target.write(film.read(min(count, 2**20)))

@@ -70,7 +70,7 @@ def render(
     """
     engine.set_metadata(shot.run, stage.scene)
     engine.check_working_space()
-    made, note = 0, ""
+    rendered, note = 0, ""
     marched = integrated.applies(shot, stage.scene) and bool(plan.rendered(shot, wanted))
     cost = frame_cost.FrameCost()
     renderer = integrated.IntegratedRenderer(shot, stage, cost) if marched else None
@@ -84,16 +84,16 @@ def render(
             with cost.part(frame_cost.FRAME):
                 finished = _frame(shot, stage, session, part, queue, ready, renderer, cost)
             if finished:
-                made, note = made + 1, _preview(finished)
-                if made == 1:
+                rendered, note = rendered + 1, _preview(finished)
+                if rendered == 1:
                     tell(cost.sentence())
             memory.release_freed()
         progress(queue.done, queue.total, "rendering", note)
     for text in renderer.warnings() if renderer else ():
         tell(text)
-    if made > 1:
+    if rendered > 1:
         tell(cost.sentence())
-    return made
+    return rendered
 
 
 def _frame(
@@ -155,24 +155,25 @@ class _Frame:
 
     def render(self, names: list[str]) -> list[Picture]:
         """Write the files of these passes, and of the passes they need, into the temporary folder."""
-        known = passes.known()
+        passes_by_name = passes.known()
         taken = {
-            name: mount.taken(self.shot.settings, self.shot.cameras, self.camera, known[name])
+            name: mount.taken(self.shot.settings, self.shot.cameras, self.camera, passes_by_name[name])
             for name in names
         }
         own = {name for needs in taken.values() for camera, name in needs.values() if camera == self.camera}
         store, made_with = self.session.store, self.session.made_with
         missing = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
-        drawn = [known[name] for name in known if name in names or name in missing]
-        made = {self.pictures[drawn_pass.name] for drawn_pass in drawn}
+        drawn = [passes_by_name[name] for name in passes_by_name if name in names or name in missing]
+        unpublished = {self.pictures[drawn_pass.name] for drawn_pass in drawn}
         self.draw([self.pictures[drawn_pass.name] for drawn_pass in drawn if passes.is_rendered(drawn_pass)])
         for drawn_pass in drawn:
             if drawn_pass.finished:
                 pairs = taken.get(drawn_pass.name, {})
                 there = {
-                    need: self.files(Picture(c, self.frame, name), made) for need, (c, name) in pairs.items()
+                    need: self.files(Picture(c, self.frame, name), unpublished)
+                    for need, (c, name) in pairs.items()
                 }
-                mine = self.files(self.pictures[drawn_pass.name], made)
+                mine = self.files(self.pictures[drawn_pass.name], unpublished)
                 with writing(mine[drawn_pass.files[0]]):
                     passes.finish(drawn_pass.name, mine, there, self.shot, self.camera, self.frame)
             self._credit(drawn_pass)
@@ -216,11 +217,13 @@ class _Frame:
         else:
             sensor.write_image(file, pixels, exr_tags.attributes(self.shot, self.camera, self.frame))
 
-    def files(self, picture: Picture, made: set[Picture]) -> dict[str, Path]:
-        """Return a picture's files by suffix: temporary files for pictures in `made`, else published ones."""
+    def files(self, picture: Picture, unpublished: set[Picture]) -> dict[str, Path]:
+        """Return files by suffix: temporary ones for a picture in `unpublished`, else published ones."""
         out = self.session.store.out
         paths = map(Path, picture.files())
-        return {path.suffix[1:]: self.part / path.name if picture in made else out / path for path in paths}
+        return {
+            path.suffix[1:]: self.part / path.name if picture in unpublished else out / path for path in paths
+        }
 
 
 def publish(
@@ -239,9 +242,9 @@ def publish(
         A file is damaged, or another render writes these pictures with other settings.
     """
     session.check_others()
-    made = {name: part / Path(name).name for each in pictures for name in each.files()}
+    paths = {name: part / Path(name).name for each in pictures for name in each.files()}
     for picture, name in ((each, name) for each in pictures for name in each.files()):
-        path, size = made[name], passes.known()[picture.name].size(shot.settings.render.resolution)
+        path, size = paths[name], passes.known()[picture.name].size(shot.settings.render.resolution)
         if path.suffix == ".png" and path.exists():
             with writing(path):
                 png.remove_render_times(path)
@@ -252,7 +255,7 @@ def publish(
         entries = {}
         about = manifest.credit_entry(session.made_with[picture.camera, picture.name], words)
         for name in picture.files():
-            entries[name] = describe(made[name]) | {
+            entries[name] = describe(paths[name]) | {
                 "camera": picture.camera,
                 "pass": picture.name,
                 "frame": picture.frame,
@@ -260,7 +263,7 @@ def publish(
                 **({exr_clock.KEY: exr_clock.value(shot)} if name.endswith(".exr") else {}),
                 **about,
             }
-            files.publish(made[name], session.store.out / name)
+            files.publish(paths[name], session.store.out / name)
         session.enter(picture, entries)
 
 

@@ -133,17 +133,17 @@ def rendered(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
     return {(camera, name) for camera, name in pairs if camera in own and name in rendered}
 
 
-def _with_inputs(shot: Shot, found: list[Picture]) -> list[Picture]:
+def _with_inputs(shot: Shot, pictures: list[Picture]) -> list[Picture]:
     given = [
         Picture(c, each.frame, name)
-        for each in found
+        for each in pictures
         for c, name in _inputs_of_other_cameras(shot, each.camera, each.name)
     ]
     if not given:
-        return found
+        return pictures
     views, names = scene_runs.views(shot.settings), list(passes.known())
     every = sorted(
-        {*found, *given}, key=lambda each: (views.index(each.camera), each.frame, names.index(each.name))
+        {*pictures, *given}, key=lambda each: (views.index(each.camera), each.frame, names.index(each.name))
     )
     return [each for part in rounds(shot, every) for each in part]
 

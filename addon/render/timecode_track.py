@@ -41,22 +41,22 @@ def _with_track(moov: bytes, place: int, rate: Fraction) -> bytes:
         raise Error("no movie header of version 0")
     length = struct.unpack_from(">I", header, 16)[0]
     number = struct.unpack_from(">I", header, 96)[0]
-    made, found = b"", False
+    boxes, has_video = b"", False
     for kind, body in mp4_boxes.split(moov):
         if kind == b"mvhd":
             body = body[:96] + struct.pack(">I", number + 1)
-        elif kind == b"trak" and not found and _is_video(body):
-            found = True
+        elif kind == b"trak" and not has_video and _is_video(body):
+            has_video = True
             frames = struct.unpack_from(
                 ">2I", mp4_boxes.find(body, b"mdia", b"minf", b"stbl", b"stsz") or b"", 4
             )[1]
             body += mp4_boxes.make(b"tref", mp4_boxes.make(b"tmcd", struct.pack(">I", number)))
-            made += mp4_boxes.make(kind, body)
+            boxes += mp4_boxes.make(kind, body)
             kind, body = b"trak", _track(number, length, frames, place, rate)
-        made += mp4_boxes.make(kind, body)
-    if not found:
+        boxes += mp4_boxes.make(kind, body)
+    if not has_video:
         raise Error("no video track")
-    return made
+    return boxes
 
 
 def _is_video(track: bytes) -> bool:

@@ -50,25 +50,25 @@ def _film(shot: Shot, session: RenderSession, camera: str, name: str, made_from:
     scene = bpy.data.scenes.new("Firetwin Film")
     try:
         with session.leases.part_folder() as part:
-            made = part / path.name
+            film = part / path.name
             frames = [frame for frame, _ in made_from["frames"]]
             size = passes.known()[name].size(shot.resolution(shot.camera(camera)))
             board = _slate(part, made_from["slate"], size, around) if "slate" in made_from else None
-            _settings(shot, size, scene, made, len(frames) + bool(board), codec)
+            _settings(shot, size, scene, film, len(frames) + bool(board), codec)
             engine.set_metadata(shot.run_of(camera), scene)
             mine = session.made_with[camera, name]
             _strips(shot, scene, out, camera, name, frames, manifest.read_credits(mine), kind, board)
             with writing(path):
                 bpy.ops.render.render(animation=True, scene=scene.name)
             if codec == "prores":
-                prores.tag_colours(made)
+                prores.tag_colours(film)
             if around and codec == "h264":
-                spherical.film(made)
-            timecode_track.add(made, films.first_count(made_from, shot), shot.settings.time.rate)
-            verify.film(made)
-            entry = describe(made) | {"camera": camera, "pass": name, "film": kind}
+                spherical.film(film)
+            timecode_track.add(film, films.first_count(made_from, shot), shot.settings.time.rate)
+            verify.film(film)
+            entry = describe(film) | {"camera": camera, "pass": name, "film": kind}
             entry |= manifest.credit_entry(mine) | ({"slate_frames": 1} if board else {})
-            files.publish(made, path)
+            files.publish(film, path)
             session.store.add(made_from, {films.path_of(made_from): entry})
     finally:
         bpy.data.scenes.remove(scene)

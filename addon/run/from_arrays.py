@@ -102,14 +102,14 @@ def write(
     )
     land, source = LandRasters({}), "arrays"
     if burned is None:
-        found = model(maps, grid, land, options, source, [out], [])
+        run = model(maps, grid, land, options, source, [out], [])
     else:
         shares, moments = np.asarray(burned), np.asarray(times, np.float64)
         if len(shares) != len(moments):
             raise UsageError(f"write: burned has {len(shares)} times, and times has {len(moments)}")
-        found = masks.model(moments, shares.__getitem__, grid, land, options, source, [out], [], maps)
-    found.name, found.zone = name or out.name, options.zone
-    write.write(found, out, source, silent)
+        run = masks.model(moments, shares.__getitem__, grid, land, options, source, [out], [], maps)
+    run.name, run.zone = name or out.name, options.zone
+    write.write(run, out, source, silent)
     return out
 
 

@@ -134,14 +134,14 @@ def world_to_ndc(view: path.Path, frame: int) -> NDArray[np.float64]:
 
 def _lens(view: path.Path, frame: int) -> dict[str, Any]:
     """Collect matrices and lens; a panorama has neither a picture plane nor a focal length."""
-    found: dict[str, Any] = {"worldToCamera": world_to_camera(view, frame)}
+    tags: dict[str, Any] = {"worldToCamera": world_to_camera(view, frame)}
     if not view.around:
-        found["worldToNDC"] = world_to_ndc(view, frame)
+        tags["worldToNDC"] = world_to_ndc(view, frame)
     if view.perspective and not view.around:
         across, up = view.halves[frame - 1]
-        found["pinholeFocalLength"] = 0.5 * view.sensor / float(across)
-        found["sensorOverallDimensions"] = (view.sensor, view.sensor * float(up / across))
-    return found
+        tags["pinholeFocalLength"] = 0.5 * view.sensor / float(across)
+        tags["sensorOverallDimensions"] = (view.sensor, view.sensor * float(up / across))
+    return tags
 
 
 def to_exr_space(light: NDArray[np.float32], space: str) -> NDArray[np.float32]:

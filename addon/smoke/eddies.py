@@ -58,7 +58,7 @@ def displace(snapshot: Snapshot, domain: Domain, seed: int) -> Snapshot:
 def waves(place: Array, key: tuple[int, int, int]) -> Array:
     """Return the displacement (3, n) at places (3, n), both in cells of the outer domain."""
     random = np.random.default_rng([abs(part) for part in key])
-    found = np.zeros_like(place)
+    velocity = np.zeros_like(place)
     for length in np.repeat(_WAVES, _EACH):
         along, across = random.normal(size=(2, 3))
         along /= np.linalg.norm(along)
@@ -69,8 +69,8 @@ def waves(place: Array, key: tuple[int, int, int]) -> Array:
             x * place[0] + y * place[1] + z * place[2] + np.float32(random.uniform(0.0, 2.0 * np.pi))
         )
         for axis in range(3):
-            found[axis] += np.float32(across[axis]) * wave
-    return found
+            velocity[axis] += np.float32(across[axis]) * wave
+    return velocity
 
 
 def _sampled(fields: list[Array], at: tuple[NDArray, NDArray, NDArray]) -> list[Array]:
@@ -81,12 +81,12 @@ def _sampled(fields: list[Array], at: tuple[NDArray, NDArray, NDArray]) -> list[
         low = held.astype(np.int32)
         part = (held - low).astype(np.float32)
         sides.append(((low, 1.0 - part), (np.minimum(low + 1, count - 1), part)))
-    found = [np.zeros(len(at[0]), np.float32) for _ in fields]
+    sums = [np.zeros(len(at[0]), np.float32) for _ in fields]
     _, rows, columns = fields[0].shape
     for z, by_z in sides[0]:
         for y, by_y in sides[1]:
             row, weight = (z * rows + y) * columns, by_z * by_y
             for x, by_x in sides[2]:
-                for values, field in zip(found, fields, strict=True):
+                for values, field in zip(sums, fields, strict=True):
                     values += weight * by_x * field.ravel()[row + x]
-    return found
+    return sums

@@ -261,13 +261,13 @@ class Painter:
         box, voxel = self.layer.domain.box, self.layer.voxel
         x, y = (low + np.arange(count) * voxel for low, count in zip(origin, shape, strict=False))
         places = windward.find_sources(self.shot, time, x, y)
-        found = windward.log_gain(places, voxel, self.scale, box.spacing, self.shot.wind)
-        if found is None:
+        gain = windward.log_gain(places, voxel, self.scale, box.spacing, self.shot.wind)
+        if gain is None:
             return None
         corner = [low + (at + 0.5) * box.spacing for low, at in zip(box.corner, snapshot.low, strict=True)]
         age = snapshot.fields["age"][: windward.LEVELS].mean(axis=0).T.astype(np.float64)
         share = windward.local_share(age, self.scale.time(1.0))
-        return found * _sampled(share, box.spacing, (corner[0], corner[1]), x, y)
+        return gain * _sampled(share, box.spacing, (corner[0], corner[1]), x, y)
 
     @property
     def _lean(self) -> tuple[float, float]:

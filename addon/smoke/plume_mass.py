@@ -51,7 +51,7 @@ class PlumeMass:
 def measure(shot: Shot) -> PlumeMass:
     """Measure the plume of a shot from existing snapshots of the flow."""
     frames = shot.frames
-    made = shot.fire.smoke_made(_begin(shot), frames.last)
+    emitted = shot.fire.smoke_made(_begin(shot), frames.last)
     looks = np.unique(
         np.linspace(1, frames.count, min(_MAX_SNAPSHOTS, frames.count)).round().astype(int)
     ).tolist()
@@ -61,9 +61,9 @@ def measure(shot: Shot) -> PlumeMass:
         [_depths(domain, number) for number in numbers if domain.has(number)] for domain in source.domains
     ]  # domains, outermost first; a nest does not contain all of the plume
     if not depths_of or not depths_of[0]:
-        return PlumeMass(made)
+        return PlumeMass(emitted)
     deepest, wide = (max(depths[k] for depths_in in depths_of for depths in depths_in) for k in (0, 1))
-    return PlumeMass(made, deepest, wide, max(depths[2] for depths in depths_of[0]))
+    return PlumeMass(emitted, deepest, wide, max(depths[2] for depths in depths_of[0]))
 
 
 def describe(shot: Shot) -> str:

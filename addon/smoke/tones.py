@@ -70,13 +70,13 @@ def soot_share(
     sources, cell = sources.take(inside), row[inside] * shape[1] + column[inside]
     flaming = noise.smoothstep(*_FLAMING, sources.flaming / sources.power)
     dark = _darkness(shot, sources.fuel_cell) / max(shot.fire.smoke.dark, 1.0e-3)
-    made, sooty = (
+    emitted, sooty = (
         _blurred(np.bincount(cell, weight, soot.size).astype(np.float64).reshape(shape))
         for weight in (sources.smoke, sources.smoke * np.minimum(flaming * dark, 1.0))
     )
-    known = made > 0.0
-    soot[:] = sooty.sum() / max(made.sum(), 1.0e-12)  # the mean away from all sources
-    soot[known] = sooty[known] / made[known]
+    smoky = emitted > 0.0
+    soot[:] = sooty.sum() / max(emitted.sum(), 1.0e-12)  # the mean away from all sources
+    soot[smoky] = sooty[smoky] / emitted[smoky]
     return soot
 
 

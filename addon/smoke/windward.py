@@ -74,7 +74,7 @@ def find_sources(shot: Shot, time: float, x: Array, y: Array) -> Sources:
 
 
 def log_gain(
-    found: Sources, step: float, scale: Scale, cell: float, wind: tuple[float, float]
+    sources: Sources, step: float, scale: Scale, cell: float, wind: tuple[float, float]
 ) -> Array | None:
     """Return the logarithm of a factor (nx, ny) on smoke at the ground; None without flames.
 
@@ -85,20 +85,20 @@ def log_gain(
     wind
         Wind to the east and north, m/s.
     """
-    if not found.flames.any():
+    if not sources.flames.any():
         return None
-    gain = redistribution(found.flames, step, cell, wind)
-    clear = clear_air(found, step, cell, wind, np.sqrt(scale.ratio))
+    gain = redistribution(sources.flames, step, cell, wind)
+    clear = clear_air(sources, step, cell, wind, np.sqrt(scale.ratio))
     return np.maximum(gain + _LIMITS[0] * clear, _LIMITS[0])
 
 
 def clear_air(
-    found: Sources, step: float, cell: float, wind: tuple[float, float], scale: float = 1.0
+    sources: Sources, step: float, cell: float, wind: tuple[float, float], scale: float = 1.0
 ) -> Array:
     """Return how clear the air near fronts is, 0..1 (nx, ny): 1 where no ground smokes upwind."""
-    waves = _Waves(found.emission.shape, step)
-    smoke = waves.filter(found.emission, waves.trail(_REACH * cell, max(_WIDTH * cell, 0.5 * step), wind))
-    front = found.flames > _FRONT * np.percentile(found.flames[found.flames > 0.0], 90.0)
+    waves = _Waves(sources.emission.shape, step)
+    smoke = waves.filter(sources.emission, waves.trail(_REACH * cell, max(_WIDTH * cell, 0.5 * step), wind))
+    front = sources.flames > _FRONT * np.percentile(sources.flames[sources.flames > 0.0], 90.0)
     smoky = noise.smoothstep(*_SMOKY, smoke / max(float(np.median(smoke[front])), 1.0e-30))
     limits = [scale * limit for limit in _NEAR]
     far = noise.smoothstep(limits[0], limits[1], _distance(front, step, 0.5 * limits[1]))

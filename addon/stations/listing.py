@@ -59,14 +59,14 @@ def survey(station_file: StationFile, query: Query) -> Listing:
     own = _exercise_stations(station_file)
     if not _has_resource_condition(query) or not station_file.resources:
         least = _shortest_times(search.find(station_file, query)) if station_file.resources else {}
-        found = station_search.survey(station_file, query)
+        matched = station_search.survey(station_file, query)
         rows = [
             StationRow(
                 each.station, each.distance_km, least.get(each.station.id), _exercise(each.station, own)
             )
-            for each in found.matches
+            for each in matched.matches
         ]
-        return Listing(rows, found.left_out)
+        return Listing(rows, matched.left_out)
     answer = search.survey(station_file, query)
     least = _shortest_times(answer.matches)
     first = {each.station.id: each for each in reversed(answer.matches)}

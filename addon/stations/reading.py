@@ -98,13 +98,13 @@ class _Reader:
         return tuple(stations)
 
     def position(self, number: int, blob: Any) -> tuple[float, float]:
-        found = position(blob) if isinstance(blob, bytes) else None
-        if found is None and isinstance(blob, bytes):
+        coordinates = position(blob) if isinstance(blob, bytes) else None
+        if coordinates is None and isinstance(blob, bytes):
             points = geopackage.points(blob)
-            found = (float(points[0][1]), float(points[0][0])) if points else None
-        if found is None or not (abs(found[0]) <= 90.0 and abs(found[1]) <= 540.0):
+            coordinates = (float(points[0][1]), float(points[0][0])) if points else None
+        if coordinates is None or not (abs(coordinates[0]) <= 90.0 and abs(coordinates[1]) <= 540.0):
             self.fail("station", number, "has no position in degrees; move it in a map, or remove it")
-        return found
+        return coordinates
 
     def availability(self) -> tuple[Availability, ...]:
         rows = self.base.rows("availability", _AVAILABILITY, "id")

@@ -127,7 +127,7 @@ def enough(overhead: float, frame: float) -> int:
     return int(overhead * (1.0 - MOST) / (MOST * frame)) + 1
 
 
-def plot(found: dict[str, dict[str, float]], path: Path, chosen: int) -> None:
+def plot(rows: dict[str, dict[str, float]], path: Path, chosen: int) -> None:
     """Draw the overhead fraction against frames per task."""
     import matplotlib
 
@@ -136,7 +136,7 @@ def plot(found: dict[str, dict[str, float]], path: Path, chosen: int) -> None:
     from matplotlib import pyplot
 
     figure, axis = pyplot.subplots(figsize=(6.0, 3.6), layout="constrained")
-    for (name, row), colour in zip(found.items(), ("#35b779", "#31688e", "#d1410c"), strict=False):
+    for (name, row), colour in zip(rows.items(), ("#35b779", "#31688e", "#d1410c"), strict=False):
         shares = [100.0 * share(row, size) for size in SIZES]
         axis.plot(SIZES, shares, "o-", color=colour, markersize=4, label=name)
     axis.axhline(100.0 * MOST, color="0.5", linewidth=0.8)
@@ -178,19 +178,19 @@ def main() -> None:
     for _ in range(given.runs):
         for name, path in scenes.items():
             runs[name].append(task(path, work / "out", cache, given.frames))
-    found = {
+    measured = {
         name: {phase: statistics.median(each[phase] for each in rows) for phase in PHASES}
         for name, rows in runs.items()
     }
     print(f"{'':22}" + "".join(f"{phase:>10}" for phase in PHASES) + "    frames per task")
-    for name, row in found.items():
+    for name, row in measured.items():
         seconds = "".join(f"{row[phase]:10.2f}" for phase in PHASES)
         print(f"{name:22}{seconds}{enough(row['overhead'], row['frame']):19}")
     print(f"{'frames per task':22}" + "".join(f"{size:7}" for size in SIZES))
-    for name, row in found.items():
+    for name, row in measured.items():
         print(f"{name:22}" + "".join(f"{100.0 * share(row, size):6.1f}%" for size in SIZES))
     if given.plot:
-        plot({name: found[name] for name in CASES}, given.plot, CHUNK)
+        plot({name: measured[name] for name in CASES}, given.plot, CHUNK)
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ def painted(scene: Path, cache: Path, frames: int) -> dict[str, float]:
     from firetwin.smoke import sources
 
     source = sources.select(for_view(ShotSource(scene=str(scene), cache=str(cache)).shot(), "drone"))
-    found: dict[str, list[float]] = defaultdict(list)
+    seconds: dict[str, list[float]] = defaultdict(list)
     with tempfile.TemporaryDirectory() as place:
         for frame in range(1, frames + 2):  # the first one prepares shared data
             for name in ("paint", "write"):
@@ -43,10 +43,10 @@ def painted(scene: Path, cache: Path, frames: int) -> dict[str, float]:
                     source.write(Path(place) / f"smoke_{frame:06d}.vdb", frame)
                 if frame > 1:
                     spent = watch.read()
-                    found[name].append(spent.seconds)
-                    found[f"{name}, cpu"].append(spent.processor)
+                    seconds[name].append(spent.seconds)
+                    seconds[f"{name}, cpu"].append(spent.processor)
         size = sum(path.stat().st_size for path in Path(place).rglob("*.vdb")) / (frames + 1)
-    return {name: statistics.median(values) for name, values in found.items()} | {"MB": size / 1e6}
+    return {name: statistics.median(values) for name, values in seconds.items()} | {"MB": size / 1e6}
 
 
 def main() -> None:

@@ -66,13 +66,13 @@ def change_in_blender(
     scene, file = bpy.context.scene, scene_file(Path(folder))
     sample.write(file.run, MODEL_TIMES, "npy")
     build.build(Shot(file, runs.open(file.run)), scene)
-    found = {OURS: _changes(times)}
+    changes = {OURS: _changes(times)}
     animated = [obj for obj in scene.objects if obj.modifiers and not obj.hide_viewport]
     for obj in animated:
         obj.hide_viewport = True
-        found[f"without {obj.name.removeprefix('Firetwin ')}"] = _changes(times)
+        changes[f"without {obj.name.removeprefix('Firetwin ')}"] = _changes(times)
         obj.hide_viewport = False
-    return found
+    return changes
 
 
 def _changes(times: int) -> list[float]:

@@ -77,18 +77,18 @@ def _wrong(points: Points, call: Callable[[], NDArray]) -> float | None:
     return error(points, call().reshape(-1, 3))
 
 
-def _targets(bench: Bench, found: dict[str, Times], points: int, wrong: dict[str, float | None]) -> None:
+def _targets(bench: Bench, times: dict[str, Times], points: int, wrong: dict[str, float | None]) -> None:
     for tool, points_of in ((GRID, "points of a grid"), (SCATTERED, "scattered points")):
         if (metres := wrong[tool]) is not None:
             quantity = f"Largest error against 50-digit arithmetic, {points_of}"
             bench.target(quantity, metres * 1e9, 5, "nm", most=True)
-    each = [seconds / points * 1e9 for seconds in found[GRID].seconds]
+    each = [seconds / points * 1e9 for seconds in times[GRID].seconds]
     bench.target("Time per point of a grid", each, 5, "ns", most=True)
     for tool in ("pymap3d", "pyproj"):
-        if tool in found:
+        if tool in times:
             bench.target(
                 f"Speed on the points of a grid / {tool}",
-                found[GRID].faster_than(found[tool]),
+                times[GRID].faster_than(times[tool]),
                 15,
                 "x",
             )

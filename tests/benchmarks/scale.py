@@ -116,15 +116,19 @@ def cut(
 
 def _between(values: NDArray, repeated: NDArray, split: int) -> NDArray:
     """Interpolate bilinearly between cell centres; take the cell's value if a neighbour is unknown."""
-    found = values.astype(np.float64)
+    values_between = values.astype(np.float64)
     for axis in (0, 1):
         count = values.shape[axis]
         at = np.clip((np.arange(count * split) + 0.5) / split - 0.5, 0, count - 1)
         low = np.minimum(at.astype(int), max(count - 2, 0))
         high = np.minimum(low + 1, count - 1)
         part = np.expand_dims(at - low, 1 - axis)
-        found = found.take(low, axis) * (1.0 - part) + found.take(high, axis) * part
-    return np.where(np.isfinite(found) & np.isfinite(repeated), found, repeated).astype(values.dtype)
+        values_between = (
+            values_between.take(low, axis) * (1.0 - part) + values_between.take(high, axis) * part
+        )
+    return np.where(np.isfinite(values_between) & np.isfinite(repeated), values_between, repeated).astype(
+        values.dtype
+    )
 
 
 def _interval(minutes: slice) -> str:
@@ -138,7 +142,7 @@ def _finer(axis: NDArray, split: int) -> NDArray:
     return (axis[:, None] + part * (axis[-1] - axis[0]) / (len(axis) - 1)).ravel()
 
 
-def front(sample: Path, found: NDArray, moments: NDArray) -> tuple[float, float, float]:
+def front(sample: Path, arrivals: NDArray, moments: NDArray) -> tuple[float, float, float]:
     """Return the mean and the outward distance of a front, m, and the error of the last burned area, %."""
     own = np.load(sample / "fuel_arrival_time.npy").astype(np.float64)
     before = own < 0.0  # released its heat before the run began
@@ -147,7 +151,7 @@ def front(sample: Path, found: NDArray, moments: NDArray) -> tuple[float, float,
         before = padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:] | before
     off, out, more = [], [], 0.0
     for moment in moments:
-        true, here = (own <= moment) & ~before, (found <= moment) & ~before
+        true, here = (own <= moment) & ~before, (arrivals <= moment) & ~before
         front = np.diff(own <= moment, axis=0), np.diff(own <= moment, axis=1)
         known = ~(before[1:] | before[:-1]), ~(before[:, 1:] | before[:, :-1])
         edges = sum(np.count_nonzero(part & there) for part, there in zip(front, known, strict=True))

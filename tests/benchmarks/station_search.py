@@ -80,20 +80,20 @@ def compare_arrivals(folder: Path, copy: Path) -> None:
     latitude, longitude = (
         rng.uniform(axis.min(), axis.max(), STATION_FILE) for axis in (own.fuel_latitude, own.fuel_longitude)
     )
-    true, found = (fire_arrival.sample(run, latitude, longitude) for run in (own, flux))
-    both = (true.state == fire_arrival.REACHED) & (found.state == fire_arrival.REACHED)
-    error = (found.time - true.time)[both] / 60.0
-    within = ((found.earliest <= true.time) & (true.time <= found.latest))[both]
-    wide, narrow = (np.median((each.latest - each.earliest)[both]) / 60.0 for each in (found, true))
+    true, sampled = (fire_arrival.sample(run, latitude, longitude) for run in (own, flux))
+    both = (true.state == fire_arrival.REACHED) & (sampled.state == fire_arrival.REACHED)
+    error = (sampled.time - true.time)[both] / 60.0
+    within = ((sampled.earliest <= true.time) & (true.time <= sampled.latest))[both]
+    wide, narrow = (np.median((each.latest - each.earliest)[both]) / 60.0 for each in (sampled, true))
     before = true.state == fire_arrival.BEFORE
     print(f"{both.sum():,} places; model output every {np.median(np.diff(own.times)):.0f} s")
     print(f"  mean absolute error {np.abs(error).mean():.0f} min, bias {error.mean():+.1f} min")
     print(f"  between earliest and latest: {100.0 * within.mean():.0f} %; median width {wide:.0f} min")
     print(f"  median width with fuel_arrival_time {narrow:.0f} min")
-    missed = (true.state == fire_arrival.REACHED) & (found.state == fire_arrival.NOT_REACHED)
-    added = (true.state == fire_arrival.NOT_REACHED) & (found.state == fire_arrival.REACHED)
+    missed = (true.state == fire_arrival.REACHED) & (sampled.state == fire_arrival.NOT_REACHED)
+    added = (true.state == fire_arrival.NOT_REACHED) & (sampled.state == fire_arrival.REACHED)
     print(f"  reached, but never by fluxes: {missed.sum():,}; never, but reached by fluxes: {added.sum():,}")
-    never = before & (found.state == fire_arrival.NOT_REACHED)
+    never = before & (sampled.state == fire_arrival.NOT_REACHED)
     print(f"  burned before the run: {before.sum():,}, never by fluxes: {never.sum():,}")
 
 

@@ -82,17 +82,17 @@ def measure(folder: Path, count: int, side: int) -> dict[str, Any]:
 
     mesh.fill, material.build = timed, looked
     stage = owned.adopt(bpy.context.scene)
-    found: dict[str, Any] = {}
+    selected: dict[str, Any] = {}
     for turn in ("first", "second"):
-        found[f"{turn} prepare"] = seconds(lambda: selection.make(shot))
+        selected[f"{turn} prepare"] = seconds(lambda: selection.make(shot))
         cut = tile_cut.of_shot(shot)
         assert cut is not None
-        found[f"{turn} build"] = seconds(lambda cut=cut: build.build(shot, stage, cut, None))
+        selected[f"{turn} build"] = seconds(lambda cut=cut: build.build(shot, stage, cut, None))
     mesh.fill, material.build = fill, look
-    found["material"] = looks[0]
-    found["tiles"] = len(cut.tiles)
-    found["tenth"], found["last"] = float(np.mean(filled[5:15])), float(np.mean(filled[-10:]))
-    return found
+    selected["material"] = looks[0]
+    selected["tiles"] = len(cut.tiles)
+    selected["tenth"], selected["last"] = float(np.mean(filled[5:15])), float(np.mean(filled[-10:]))
+    return selected
 
 
 def main() -> None:

@@ -36,27 +36,27 @@ def test_trees_materials_and_groups_are_assets_in_catalogues(settings, few, libr
     with bpy.data.libraries.load(str(library), assets_only=True) as (there, wanted):
         for kind in KINDS:
             setattr(wanted, kind, getattr(there, kind))
-    found = {block.name: block for kind in KINDS for block in getattr(wanted, kind)}
-    assert len(found) == count
+    blocks = {block.name: block for kind in KINDS for block in getattr(wanted, kind)}
+    assert len(blocks) == count
     known = {job.identifier(name) for name in job.CATALOGUES}
-    assert {block.asset_data.catalog_id for block in found.values()} <= known
-    assert all(block.asset_data.description for block in found.values())
-    assert {"Young Conifer 1", "Large Conifer Snag 1", "Rock 1"} <= found.keys()
-    assert {"Firetwin Foliage", "Firetwin Smoke Flow", "Firetwin Trees", "Firetwin Flames"} <= found.keys()
-    camera = found["Firetwin Thermal Camera"].asset_data
+    assert {block.asset_data.catalog_id for block in blocks.values()} <= known
+    assert all(block.asset_data.description for block in blocks.values())
+    assert {"Young Conifer 1", "Large Conifer Snag 1", "Rock 1"} <= blocks.keys()
+    assert {"Firetwin Foliage", "Firetwin Smoke Flow", "Firetwin Trees", "Firetwin Flames"} <= blocks.keys()
+    camera = blocks["Firetwin Thermal Camera"].asset_data
     assert camera.catalog_id == job.identifier("Compositor")
     assert camera.description.startswith("Brightness temperature (K)")
     assert camera.description.endswith("Inputs: Low, High, Knee, Palette")
-    assert {"Firetwin Thermal Blend", "Firetwin Eye Dome", "Firetwin Overlay"} <= found.keys()
-    assert found["Firetwin Haze"].asset_data.description == "Inputs: Density, Tint"
-    assert "Haze Tint" in found["Firetwin Foliage Shader"].asset_data.description
-    tree = found["Young Conifer 1"]
+    assert {"Firetwin Thermal Blend", "Firetwin Eye Dome", "Firetwin Overlay"} <= blocks.keys()
+    assert blocks["Firetwin Haze"].asset_data.description == "Inputs: Density, Tint"
+    assert "Haze Tint" in blocks["Firetwin Foliage Shader"].asset_data.description
+    tree = blocks["Young Conifer 1"]
     pixels = np.empty(16 * 16 * 4, np.float32)
     tree.preview.image_pixels_float.foreach_get(pixels)
     red, green, _, seen = np.moveaxis(pixels.reshape(16, 16, 4), -1, 0)
     assert 0.1 < (seen > 0.5).mean() < 0.9  # a tree amid nothing
     assert green[seen > 0.5].mean() > red[seen > 0.5].mean()  # a living one: it stands alone, and is not dead
-    rock = found["Firetwin Rock"]
+    rock = blocks["Firetwin Rock"]
     rock.preview.image_pixels_float.foreach_get(pixels)
     assert 0.1 < (pixels[3::4] > 0.5).mean() < 0.9  # the result
     assert tree.scale.z == assets.HEIGHTS["small"]  # of a model a metre tall

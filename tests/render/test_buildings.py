@@ -52,7 +52,7 @@ def square(north, east, side):
 def frame(run_folder, tmp_path_factory):
     """Two blocks, west and east: image of a pass by name."""
     folder = tmp_path_factory.mktemp("frame")
-    found = [
+    features = [
         {
             "type": "Feature",
             "properties": {"height": 30},
@@ -60,7 +60,9 @@ def frame(run_folder, tmp_path_factory):
         }
         for east in (-110.0, 50.0)
     ]
-    (folder / "footprints.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": found}))
+    (folder / "footprints.geojson").write_text(
+        json.dumps({"type": "FeatureCollection", "features": features})
+    )
     _, out = rendered.everything(folder, SCENE.format(run=run_folder))
     return lambda name: np.asarray(sensor.read_image(out / Picture("drone", 1, name).file("exr")))
 

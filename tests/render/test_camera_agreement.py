@@ -86,7 +86,7 @@ def seen(settings, run, stage, scene, tmp_path):
     layers.select(scene, ["depth"])
     row, column = (v.ravel() for v in np.indices((HEIGHT, WIDTH)))
     share = np.stack([(column + 0.5) / WIDTH * 2 - 1, 1 - (row + 0.5) / HEIGHT * 2], axis=-1)
-    found = {}
+    views = {}
     for view, camera in zip(shot.paths, built, strict=True):
         scene.camera = camera
         scene.frame_set(FRAME)
@@ -96,14 +96,14 @@ def seen(settings, run, stage, scene, tmp_path):
             bpy.ops.render.render(scene=scene.name)
         depth = np.asarray(sensor.read_image(tmp_path / f"{picture.stem()}{FRAME:06d}.exr"))[..., 0].ravel()
         place = placed(view, share, depth.astype(np.float64))
-        found[view.camera.name] = camera, view, place[(depth < 1e9)]
-    return shot, found
+        views[view.camera.name] = camera, view, place[(depth < 1e9)]
+    return shot, views
 
 
 def test_depth_pose_and_terrain_agree_in_every_kind_of_camera(seen, scene):
-    shot, found = seen
-    assert {view.camera.kind for _, view, _ in found.values()} >= set(rigs.kinds()) - {"vr"}
-    for name, (_, view, place) in found.items():
+    shot, views = seen
+    assert {view.camera.kind for _, view, _ in views.values()} >= set(rigs.kinds()) - {"vr"}
+    for name, (_, view, place) in views.items():
         inside = np.abs(place[:, :2]).max(axis=1) < 4000.0
         assert inside.sum() > 1000, name
         earth = np.copy(place[inside])
@@ -112,7 +112,7 @@ def test_depth_pose_and_terrain_agree_in_every_kind_of_camera(seen, scene):
         print(f"{name}: 99 of 100 within {np.percentile(off, 99):.3f} pixels, all within {off.max():.3f}")
         assert np.percentile(off, 99) < 1.0, name
         place = earth[:: max(len(earth) // 40, 1)]
-        for other, (camera, there, _) in found.items():  # where Blender itself projects the place
+        for other, (camera, there, _) in views.items():  # where Blender itself projects the place
             scene.frame_set(FRAME)
             theirs = [world_to_camera_view(scene, camera, Vector(each))[:2] for each in place]
             ours = pixels(there, place) / [WIDTH, HEIGHT] + 0.5

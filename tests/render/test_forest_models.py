@@ -19,8 +19,8 @@ STEP = {"side": (0.0, 0.0, -24.0), "above": (0.0, -16.0, 0.0)}  # m from level t
 @pytest.fixture
 def looks(shot, stage, scene, tmp_path):
     """Cover (levels, trees) and colour (levels, trees, 3), from the side and from above, by Cycles."""
-    made = library.tree_models(shot, stage)
-    made.use_fake_user = True  # it outlives the first view
+    trees = library.tree_models(shot, stage)
+    trees.use_fake_user = True  # it outlives the first view
     row, column = (v.ravel() for v in np.mgrid[: levels.LEVELS, : len(LIVING)])
     number = models.instance(np.array(LIVING)[column], row)
     zero, half = np.zeros(len(number)), np.full(len(number), 0.5)
@@ -42,10 +42,10 @@ def looks(shot, stage, scene, tmp_path):
         "dead": half,
     }
     camera = _lit(scene)
-    found = {}
+    appearance = {}
     for view, step in STEP.items():
         place = column[:, None] * [[16.0, 0.0, 0.0]] + row[:, None] * np.array([step])
-        forest._instances(shot, stage, stage.part("Chart"), "Chart", {"position": place, **points}, made)
+        forest._instances(shot, stage, stage.part("Chart"), "Chart", {"position": place, **points}, trees)
         tall = int(-min(step))
         camera.location = 8.0 * np.array([len(LIVING) - 1.0, 0.0, 0.0]) + 1.5 * np.array(step)
         camera.location += Vector((0.0, -300.0, 10.0) if view == "side" else (0.0, 0.0, 300.0))
@@ -55,8 +55,8 @@ def looks(shot, stage, scene, tmp_path):
         pixels = _rendered(scene, tmp_path / f"{view}.exr")
         pixels = pixels.reshape(levels.LEVELS, 2 * tall, len(LIVING), 32, 4)
         cover = pixels[..., 3].mean((1, 3))
-        found[view] = cover, pixels[..., :3].mean((1, 3)) / cover[..., None]
-    return found
+        appearance[view] = cover, pixels[..., :3].mean((1, 3)) / cover[..., None]
+    return appearance
 
 
 def _lit(scene):
@@ -100,7 +100,7 @@ def test_coarser_levels_cover_as_much_and_look_as_bright(looks):
 
 def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, tmp_path):
     """Trees of one model: living, torching, charred with needles, scorched from below, scorched whole."""
-    made, camera = library.tree_models(shot, stage), _lit(scene)
+    trees, camera = library.tree_models(shot, stage), _lit(scene)
     age, scorch = np.array([-1e6, 90.0, 600.0, 600.0, 600.0]), np.array([1.0, 1.0, 1.0, 0.4, 1.0])
     half, model = np.full(5, 0.5), models.instance(np.full(5, 3), np.ones(5, np.int64))
     points = {
@@ -116,7 +116,7 @@ def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, t
         "torched": np.array([1.0, 1.0, 1.0, 0.0, 0.0]),
         "arrival_time": scene.get(nodes.TIME, 0.0) - age,
     }
-    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, made)
+    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, trees)
     camera.location, camera.rotation_euler = (32.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
     camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 80, 160, 48
     pixels = _rendered(scene, tmp_path / "fire.exr").reshape(48, 5, 32, 4)
@@ -133,7 +133,7 @@ def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, t
 
 def test_far_crowns_bear_the_flames_between_them(shot, stage, scene, tmp_path):
     """Trees that the front has not reached, stands among, and has long passed, none of them torched."""
-    made, camera = library.tree_models(shot, stage), _lit(scene)
+    trees, camera = library.tree_models(shot, stage), _lit(scene)
     age, half = np.array([-1e6, 60.0, 1200.0]), np.full(3, 0.5)
     model = models.instance(np.full(3, 3), np.ones(3, np.int64))
     points = {"position": np.arange(3)[:, None] * [[16.0, 0.0, 0.0]], "scale": 40.0 * half}
@@ -141,7 +141,7 @@ def test_far_crowns_bear_the_flames_between_them(shot, stage, scene, tmp_path):
     points |= dict.fromkeys(("tint", "dead", "elevation", "canopy_fuel"), half)
     points |= {"scorch": 0.0 * half, "torched": 0.0 * half}
     points["arrival_time"] = scene.get(nodes.TIME, 0.0) - age
-    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, made)
+    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, trees)
     camera.rotation_euler, camera.data.clip_end = (0.5 * np.pi, 0.0, 0.0), 1.0e5
     camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 48, 48, 24
     red = {}
@@ -156,7 +156,7 @@ def test_far_crowns_bear_the_flames_between_them(shot, stage, scene, tmp_path):
 
 def test_a_far_tree_has_a_sunlit_side_and_burns_as_a_near_one(shot, stage, scene, tmp_path):
     """Living, charred and scorched firs in levels 0 and 3, as small as level 3 is, sun from the right."""
-    made, camera = library.tree_models(shot, stage), _lit(scene)
+    trees, camera = library.tree_models(shot, stage), _lit(scene)
     bpy.data.objects["sun"].rotation_euler = (0.0, 0.9, 0.0)
     state, level = (v.ravel() for v in np.mgrid[:3, :4:3])
     model, half = models.instance(np.full(6, 3), level), np.full(6, 0.5)
@@ -169,7 +169,7 @@ def test_a_far_tree_has_a_sunlit_side_and_burns_as_a_near_one(shot, stage, scene
     points |= {"model": model, "snag_model": model, "tint": half, "dead": half, "elevation": half}
     points |= {"canopy_fuel": half, "scorch": 2.0 * half, "torched": np.array([0.0, 1.0, 0.0])[state]}
     points["arrival_time"] = scene.get(nodes.TIME, 0.0) - np.array([-1e6, 600.0, 600.0])[state]
-    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, made)
+    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, trees)
     camera.location, camera.rotation_euler = (40.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
     camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 96, 96, 24
     pixels = _rendered(scene, tmp_path / "far.exr").reshape(24, 6, 16, 4)

@@ -32,7 +32,7 @@ def test_a_rendered_picture_from_over_the_equator_shows_the_imagers_pixels(
         pictures.render(shot, stage, here, wanted)
     shown = sensor.read_image(tmp_path / "out" / wanted[1].file("png"))[..., :3]
     seen = imager.picture(imager.ABI, imager.grid_of(imager.ABI, run, -137.0), shot.fire, 1800.0)
-    known = np.abs(shown - 0.12).max(axis=-1) > 0.02
+    imaged = np.abs(shown - 0.12).max(axis=-1) > 0.02
     view = shot.paths[0]
     for row, column in np.ndindex(seen.short.shape):
         place = seen.grid.reverse(*(np.array([n + 0.5]) for n in (seen.row + row, seen.column + column)))
@@ -41,6 +41,6 @@ def test_a_rendered_picture_from_over_the_equator_shows_the_imagers_pixels(
         local = view.rotation[1].T @ (there - view.position[1])
         x, y = (80 * (0.5 + 0.5 * np.array([1, -1]) * local[:2] / view.half)).astype(int)
         expected = sensor.colour([[seen.short[row, column]]], shot.air.coldest, 400.0, "inferno", 20.0)
-        assert known[y, x]
+        assert imaged[y, x]
         assert np.abs(shown[y, x] - expected[0, 0]).max() < 0.51 / 255
-    assert 0.05 < known.mean() < 0.6
+    assert 0.05 < imaged.mean() < 0.6

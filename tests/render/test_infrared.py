@@ -108,16 +108,16 @@ def test_heat_comes_through_smoke_by_its_depth_in_long_steps_too(
     scene.camera.location.z, scene.camera.data.clip_end = 3000.0, 1e4
     depth = thick * 40 * voxel * infrared.SOOT * 2.0 * infrared.GREEN / (8.0 + 14.0)
     table = sensor.PlanckTable()
-    found = {}
+    radiance = {}
     for long in (False, True):
         with engine.long_steps(scene, long):
-            found[long] = table.radiance(shoot(scene, "thermal")[2, 2, 0])
+            radiance[long] = table.radiance(shoot(scene, "thermal")[2, 2, 0])
     assert scene.cycles.volume_step_rate == 1.0
     left = np.exp(-depth)
     expected = table.radiance(900.0) * left + table.radiance(300.0) * (1.0 - left)
     assert 0.3 < depth < 0.6
-    assert found[False] == pytest.approx(expected, rel=0.01)
-    assert found[True] == pytest.approx(found[False], rel=0.01)
+    assert radiance[False] == pytest.approx(expected, rel=0.01)
+    assert radiance[True] == pytest.approx(radiance[False], rel=0.01)
 
 
 def test_sunlit_ground_is_warmer_than_shaded_and_crowns_are_near_the_air(plates, scene, shoot, shot):
@@ -163,12 +163,12 @@ def test_the_air_changes_with_the_time_of_the_shot(
     shot = Shot(replace(settings, run=folder), runs.open(folder))
     clock.build(shot, stage)
     plates(lambda *all: infrared.surface_radiance(*all, temperature.air_temperature_node(*all)), by=shot)
-    found = []
+    kelvin = []
     for frame in (1, 2, 3):
         scene.frame_set(frame)
-        found.append(float(shoot(scene, "thermal").mean()))
-    assert np.diff(found) == pytest.approx([10.0, 10.0], abs=0.01)
+        kelvin.append(float(shoot(scene, "thermal").mean()))
+    assert np.diff(kelvin) == pytest.approx([10.0, 10.0], abs=0.01)
     height = float(
         np.mean(shot.run.elevation[11:13, 11:13])
     )  # of the model's ground; the plates lie at sea level
-    assert found[0] == pytest.approx(290.0 + airs.LAPSE * height, abs=0.5)
+    assert kelvin[0] == pytest.approx(290.0 + airs.LAPSE * height, abs=0.5)

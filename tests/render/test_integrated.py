@@ -95,13 +95,13 @@ def test_marched_smoke_is_the_smoke_that_cycles_walks_through(both):
 
 def test_heat_and_depth_are_what_renders_of_their_own_give(both):
     ours, theirs = both
-    kelvin, reference = (found["thermal"][..., 0] for found in both)
+    kelvin, reference = (layers["thermal"][..., 0] for layers in both)
     cold = (kelvin < 330.0) & (reference < 330.0)
     off = (kelvin - reference)[cold]
     assert cold.mean() > 0.5
     assert np.sqrt(np.mean(off**2)) < 3.0, "pixels near flames are means of more rays"
     assert abs(off.mean()) < 0.4
-    near, far = (found["depth"][..., 0] for found in both)
+    near, far = (layers["depth"][..., 0] for layers in both)
     assert np.mean(np.abs(near - far) < 1e-3 * far) > 0.98
     assert np.array_equal(ours["masks"][..., 2], theirs["masks"][..., 2])
 
@@ -175,24 +175,26 @@ def test_settings_decide_how_smoke_is_drawn(near_settings, run):
 
 
 def test_layers_of_the_picture_add_up(film, tmp_path):
-    made = film("rgb", "comp")
-    found = sensor.read_channels(tmp_path / "integrated_0_rgb_comp" / Picture("drone", 1, "comp").file("exr"))
+    layered = film("rgb", "comp")
+    channels = sensor.read_channels(
+        tmp_path / "integrated_0_rgb_comp" / Picture("drone", 1, "comp").file("exr")
+    )
 
     def layer(name):
-        return np.stack([found[name + channel] for channel in "RGB"], axis=-1)
+        return np.stack([channels[name + channel] for channel in "RGB"], axis=-1)
 
     names = "", "solid.", "fire.", "smoke.", "light_sun.", "light_sky.", "light_fire.", "bloom."
-    assert set(found) == {name + channel for name in names for channel in "RGB"} | {"A", "smoke.A"}
+    assert set(channels) == {name + channel for name in names for channel in "RGB"} | {"A", "smoke.A"}
     picture, solid, fire, smoke, sun, sky, firelight, bloom = map(layer, names)
     half = {"rel": 2e-3, "abs": 1e-4}
     assert solid + fire + smoke == pytest.approx(picture, **half)
     assert sun + sky + firelight == pytest.approx(solid, **half)
     assert min(each.min() for each in (solid, fire, smoke, sun, firelight)) > -1e-3
     assert bloom.min() > -0.01 * picture.max()
-    assert np.array_equal(film("rgb")["rgb"], made["rgb"]), "layers change nothing"
-    ground = (found["A"] > 0.99) & (found["smoke.A"] < 0.02)
+    assert np.array_equal(film("rgb")["rgb"], layered["rgb"]), "layers change nothing"
+    ground = (channels["A"] > 0.99) & (channels["smoke.A"] < 0.02)
     assert sun[ground].mean() > sky[ground].mean() > 0.0
-    assert found["smoke.A"].max() > 0.9
+    assert channels["smoke.A"].max() > 0.9
     assert fire[..., 0].max() > 1.0
 
 
@@ -212,25 +214,27 @@ def test_one_module_adds_a_marched_pass(film, monkeypatch):
 def test_data_agrees_with_the_passes_that_it_is_made_from(film, tmp_path):
     film("masks", "data")
     out = tmp_path / "integrated_0_masks_data"
-    found, masks = (
+    channels, masks = (
         sensor.read_channels(out / Picture("drone", 1, name).file("exr")) for name in ("data", "masks")
     )
-    known = dict(zip(masks_pass.NAMES, cryptomatte.identify(masks_pass.NAMES), strict=True))
+    hashes = dict(zip(masks_pass.NAMES, cryptomatte.identify(masks_pass.NAMES), strict=True))
 
     def matte(name):
         ranks = [(f"CryptoClass{layer:02d}.", pair) for layer in range(3) for pair in ("rg", "ba")]
         return sum(
-            np.where(found[layer + pair[0]] == known[name], found[layer + pair[1]], 0.0)
+            np.where(channels[layer + pair[0]] == hashes[name], channels[layer + pair[1]], 0.0)
             for layer, pair in ranks
         )
 
     for name in ("ground", "tree", "smoke", "fire"):
         here = masks["class"] == masks_pass.NAMES.index(name)
         assert matte(name)[here].mean() > 0.5 > 4.0 * matte(name)[~here].mean()
-    assert sum(matte(name) for name in known) == pytest.approx(1.0, abs=1e-5)
-    trees = sum(found[f"CryptoTree{layer:02d}.{part}"] for layer in range(3) for part in "ga")
+    assert sum(matte(name) for name in hashes) == pytest.approx(1.0, abs=1e-5)
+    trees = sum(channels[f"CryptoTree{layer:02d}.{part}"] for layer in range(3) for part in "ga")
     assert 0.0 < trees.max() <= 1.0 + 1e-5
-    solid = found["Z"] < 1.0e9
-    assert np.hypot(found["N.X"], np.hypot(found["N.Y"], found["N.Z"]))[solid] == pytest.approx(1.0, abs=1e-3)
-    assert not found["forward.u"].any(), "a film of one frame"
-    assert found["thermal.kelvin"].max() > 600.0
+    solid = channels["Z"] < 1.0e9
+    assert np.hypot(channels["N.X"], np.hypot(channels["N.Y"], channels["N.Z"]))[solid] == pytest.approx(
+        1.0, abs=1e-3
+    )
+    assert not channels["forward.u"].any(), "a film of one frame"
+    assert channels["thermal.kelvin"].max() > 600.0

@@ -70,8 +70,8 @@ def _smoke(shot, stage):
 
 
 def test_pixels_have_their_class_and_their_tree(shoot):
-    scene, found = shoot("masks", "depth")
-    kind, clear, instance, surface = np.moveaxis(found["masks"], -1, 0)
+    scene, pixels = shoot("masks", "depth")
+    kind, clear, instance, surface = np.moveaxis(pixels["masks"], -1, 0)
     right = np.s_[:, 56:]
     assert np.array_equal(np.unique(kind[:, :40]), [masks.SMOKE])
     assert masks.SMOKE not in surface  # thin smoke: the class behind it is known
@@ -84,7 +84,7 @@ def test_pixels_have_their_class_and_their_tree(shoot):
     assert set(np.unique(kind[right])) <= {masks.SKY, masks.GROUND, masks.BURNED, masks.TREE, masks.FIRE}
     assert {masks.GROUND, masks.TREE} <= set(np.unique(kind[right]))
     assert np.array_equal(instance, np.rint(instance))
-    sky = found["depth"][..., 0] > 1e9
+    sky = pixels["depth"][..., 0] > 1e9
     assert np.array_equal(kind[right] == masks.SKY, sky[right])
     assert np.all(instance[right][kind[right] == masks.TREE] > 0)
     assert np.all(instance[np.isin(kind, (masks.SKY, masks.GROUND, masks.BURNED))] == 0)
@@ -93,7 +93,7 @@ def test_pixels_have_their_class_and_their_tree(shoot):
     assert len(numbers) > 20
     assert set(numbers) <= set(trees)
     assert (instance[:, :40] > 0).any()  # behind the smoke
-    _stand_there(scene, trees, instance[right] * (kind[right] == masks.TREE), found["depth"][right][..., 0])
+    _stand_there(scene, trees, instance[right] * (kind[right] == masks.TREE), pixels["depth"][right][..., 0])
 
 
 def _trees():
@@ -114,7 +114,7 @@ def _stand_there(scene, trees, instance, depth):
 
 
 def test_a_pass_that_nobody_asks_for_is_not_rendered_and_changes_nothing(shoot, tmp_path):
-    scene, found = shoot("rgb")
+    scene, pixels = shoot("rgb")
     assert [each.name for each in scene.view_layers if each.use] == ["rgb"]
     trees = [scene.world.node_tree, *bpy.data.node_groups]
     switches = [
@@ -129,7 +129,7 @@ def test_a_pass_that_nobody_asks_for_is_not_rendered_and_changes_nothing(shoot, 
         node.id_data.links.new(mix.inputs[1].links[0].from_socket, mix.outputs[0].links[0].to_socket)
     layers.write_exr(scene, str(tmp_path), [Picture("drone", 2, "rgb")])
     bpy.ops.render.render(scene=scene.name)
-    assert np.array_equal(sensor.read_image(tmp_path / "drone_rgb_000002.exr"), found["rgb"])
+    assert np.array_equal(sensor.read_image(tmp_path / "drone_rgb_000002.exr"), pixels["rgb"])
 
 
 def test_sensors_of_one_mount_agree_to_the_pixel(shoot):

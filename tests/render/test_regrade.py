@@ -44,7 +44,7 @@ def test_grades_match_the_closed_form(graded, film, density):
     more = {"Smoke Tint": (*tint, 1.0), "Smoke before Fire": before, "Smoke Density": density}
     more |= {"Smoke Exposure": 0.5}
     more |= {"Haze": haze, "Haze Colour": (*air, 1.0), "Depth": depth}
-    made = graded(**grades, **more)
+    picture = graded(**grades, **more)
     layers = film[1]
     opacity = layers["smoke.A"]
     clear = np.maximum(1.0 - opacity, regrade.LEAST)
@@ -56,5 +56,5 @@ def test_grades_match_the_closed_form(graded, film, density):
     limit = np.full_like(opacity, density)
     light = np.divide(1.0 - thinner, opacity, out=limit, where=opacity > regrade.THIN)
     expected += layers["smoke."] * light * np.array(tint) * 2.0**0.5
-    assert np.abs(made - expected).max() < 1.0e-4 * expected.max()
-    assert np.isfinite(made).all()
+    assert np.abs(picture - expected).max() < 1.0e-4 * expected.max()
+    assert np.isfinite(picture).all()

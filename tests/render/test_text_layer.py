@@ -50,13 +50,13 @@ def film(settings, run, tmp_path):
 
 
 def test_letters_are_sharp_in_few_samples_and_a_layer_over_the_picture_for_compositors(film):
-    made = film(names=("rgb", "comp"))
-    first, second, none = (rgb(each["rgb"]) for each in (made, film(seed=1), film(enabled=False)))
+    layered = film(names=("rgb", "comp"))
+    first, second, none = (rgb(each["rgb"]) for each in (layered, film(seed=1), film(enabled=False)))
     written = np.abs(first - none).max(axis=-1) > 0.2
     assert 50 < written.sum() < 400
     assert np.abs(first - second)[written].mean() < 0.06, "no grain, which a denoiser would smear"
     assert first[written].max() > 0.6 * material._LIGHT, "of the stem, which is one pixel wide"
-    parts = made["comp"]
+    parts = layered["comp"]
     assert rgb(parts) == pytest.approx(none, rel=2e-3, abs=1e-4), "R, G, B have no labels"
     over = rgb(parts) * (1.0 - parts["labels.A"])[..., None] + rgb(parts, "labels.")
     assert over == pytest.approx(first, rel=4e-3, abs=1e-3)

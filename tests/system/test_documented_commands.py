@@ -103,16 +103,16 @@ def run_page(name, **more):
 
 def finish(out, made_with=None):
     """Make up the finished pictures and the film of a render, with these inputs."""
-    with Store(out, create=True) as made:
+    with Store(out, create=True) as opened:
         entries = {path: {"frame": k} for k in (1, 2) for path in Picture("drone", k, "rgb").files()}
         entries |= {film("drone", "rgb", "clean"): {"film": "clean"}}
         for path in entries:
-            (made.out / path).parent.mkdir(parents=True, exist_ok=True)
-            (made.out / path).write_bytes(path.encode())
-            entries[path] |= {"camera": "drone", "pass": "rgb"} | store.describe(made.out / path)
+            (opened.out / path).parent.mkdir(parents=True, exist_ok=True)
+            (opened.out / path).write_bytes(path.encode())
+            entries[path] |= {"camera": "drone", "pass": "rgb"} | store.describe(opened.out / path)
         about = {"film": "rgb", "kind": "clean", "fps": "24", "frames": [[1, ""], [2, ""]]}
-        made.add({"run": 1, "camera": "drone"} | about | (made_with or {}), entries)
-        made.export()
+        opened.add({"run": 1, "camera": "drone"} | about | (made_with or {}), entries)
+        opened.export()
 
 
 def test_the_commands_on_stations_run(folder, capsys):

@@ -135,17 +135,17 @@ def test_memory_is_expected_before_and_measured_after(firetwin, tmp_path, resolu
     size = f"resolution = [{resolution[0]}, {resolution[1]}]\n"
     asked = ("--out", tmp_path, "--camera", "drone", "--frames", "1", "--json")
     printed, said = firetwin(*asked, size=size)
-    found = json.loads(printed)
-    assert (found["pictures"], found["folder"]) == (3, str(tmp_path))
-    assert set(found["files"]) == _files("drone", "rgb", (1,), "png", "exr") | _files(
+    summary = json.loads(printed)
+    assert (summary["pictures"], summary["folder"]) == (3, str(tmp_path))
+    assert set(summary["files"]) == _files("drone", "rgb", (1,), "png", "exr") | _files(
         "drone", "thermal", (1,), "png", "exr"
     ) | _files("drone", "depth", (1,), "exr")
-    memory = found["memory"]
+    memory = summary["memory"]
     assert 1 / 1.5 < memory["expected"] / memory["peak"] < 1.5, memory
     words = f"firetwin: rendering takes about {progress.size(memory['expected'])} of memory at most"
     assert said.splitlines().count(words) == 1
     again, _ = firetwin(*asked, "--resume", size=size)
-    assert json.loads(again) == found | {"pictures": 0, "memory": {"expected": None, "peak": None}}
+    assert json.loads(again) == summary | {"pictures": 0, "memory": {"expected": None, "peak": None}}
 
 
 def test_the_manifest_tells_what_made_each_file(film):

@@ -61,15 +61,15 @@ def folder(run_folder, tmp_path_factory):
 
 def run(folder, *arguments, status=0):
     """Return the output of `firetwin`."""
-    made = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-m", "firetwin", *map(str, arguments)],
         capture_output=True,
         text=True,
         cwd=folder,
         timeout=900,
     )
-    assert made.returncode == status, made.stderr
-    return made.stdout, made.stderr
+    assert process.returncode == status, process.stderr
+    return process.stdout, process.stderr
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,7 @@ def filmed(settings, run, tmp_path):
     out = tmp_path / "out"
     render = replace(settings.render, resolution=SIZE[::-1], passes=("rgb",))
     time = replace(settings.time, fps=12, zone="America/Los_Angeles")
-    made = replace(settings, render=render, time=time)
+    changed = replace(settings, render=render, time=time)
     entries = {}
     for frame in (1, 2, 3):
         name = Picture("drone", frame, "rgb").file("png")
@@ -32,7 +32,7 @@ def filmed(settings, run, tmp_path):
         sensor.write_image(out / name, _picture(frame))
         entries |= _entry(out, frame)
     _enter(out, MADE_WITH["drone", "rgb"], entries)
-    return Shot(made, run), out
+    return Shot(changed, run), out
 
 
 def _enter(out, settings, entries):

@@ -69,13 +69,13 @@ def _read(model: Model, paths: list[Path]) -> tuple[list[Field], list[Field]]:
     if model.air is not None:
         latitude, longitude = model.air.latitude, model.air.longitude
     box = tuple(float(each) for each in (latitude.min(), longitude.min(), latitude.max(), longitude.max()))
-    found = grib2.read(paths, _FIELDS, {_LEVEL}, box)  # type: ignore[arg-type]
-    east, north = ([each for each in found if each.element == name] for name in _FIELDS)
+    fields = grib2.read(paths, _FIELDS, {_LEVEL}, box)  # type: ignore[arg-type]
+    east, north = ([each for each in fields if each.element == name] for name in _FIELDS)
     if not east or [each.valid for each in east] != [each.valid for each in north]:
         raise input_error(
             paths[0], "has no pair of UGRD and VGRD at 10 m above ground; give wrfsfc files of HRRR"
         )
-    for each in found:
+    for each in fields:
         if each.unit != "m/s" or not np.isfinite(each.values).all():
             raise input_error(
                 each.path, f"has {each.element} in {each.unit or 'no unit'}, or gaps; m/s are expected"

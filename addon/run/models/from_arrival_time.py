@@ -145,17 +145,17 @@ def _fuel(maps: Maps, grid: Grid, land: LandRasters, projection: str, notes: lis
     burned, own = np.isfinite(maps.arrival), _own_heat(maps, grid, notes)
     by_heat = None if own is None else np.maximum(own / constants.HEAT_OF_COMBUSTION - canopy, 0.0)
     if maps.surface is not None:
-        surface, known = np.nan_to_num(maps.surface), np.isfinite(maps.surface)
+        surface, has_fuel = np.nan_to_num(maps.surface), np.isfinite(maps.surface)
     elif category is not None:
         surface = fuels.loads(category) if maps.category is not None else land.surface(grid, projection)
-        known = np.isfinite(category)
+        has_fuel = np.isfinite(category)
     elif by_heat is not None:
         notes.append("surface fuel is heat per area over 17.433 MJ/kg where it burned, their mean elsewhere")
         surface = np.where(burned, by_heat, by_heat[burned].mean() if burned.any() else 0.0)
         return _Fuel(surface.astype(np.float32), canopy, None)
     else:
         return _Fuel(land.surface(grid, projection), canopy, None)
-    lacks = burned & ~known
+    lacks = burned & ~has_fuel
     if by_heat is not None and lacks.any():
         notes.append(
             f"{lacks.sum():,} burned cells of no known fuel have it by heat per area over 17.433 MJ/kg"

@@ -105,25 +105,25 @@ def read(paths: list[Path], elements: Collection[str], levels: Collection[str], 
         A file is not GRIB2 or damaged, its grid is not projected or does not contain the box, or two fields
         have one valid time.
     """
-    found: list[Field] = []
+    fields: list[Field] = []
     for path in paths:
         heartbeat.sign()
         if not is_grib(path):
             raise input_error(path, "is not a GRIB2 file; give files such as hrrr.t21z.wrfsfcf03.grib2")
         with reading(path, "GRIB2 file"):
-            found += _fields(path, elements, levels, box)
-    found.sort(key=lambda each: (each.element, each.valid))
-    for one, other in itertools.pairwise(found):
+            fields += _fields(path, elements, levels, box)
+    fields.sort(key=lambda each: (each.element, each.valid))
+    for one, other in itertools.pairwise(fields):
         if (one.element, one.valid) == (other.element, other.valid):
             reason = f"has {one.element} for {one.valid:%Y-%m-%d %H:%M} UTC, as {one.path.name} has"
             raise input_error(other.path, f"{reason}; give one file for each valid time")
-    return found
+    return fields
 
 
 def _fields(path: Path, elements: Collection[str], levels: Collection[str], box: Box) -> list[Field]:
     rasterio = optional_packages.package("rasterio")
     pyproj = optional_packages.package("pyproj")
-    found = []
+    fields = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", rasterio.errors.NotGeoreferencedWarning)
         with rasterio.open(path, driver="GRIB") as source:
@@ -147,8 +147,8 @@ def _fields(path: Path, elements: Collection[str], levels: Collection[str], box:
                 made = Field(
                     path, element, level, unit, issued, valid, x, y, values, largest, along_grid, projection
                 )
-                found.append(made)
-    return found
+                fields.append(made)
+    return fields
 
 
 def _window(path: Path, source: Any, projection: Any, box: Box) -> tuple[slice, slice, Array, Array]:

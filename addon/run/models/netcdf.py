@@ -161,15 +161,15 @@ class Files:
 
 def _decoded(variable: Any, values: NDArray) -> NDArray:
     """Apply scale, offset and missing values (CF conventions 1.11, 2.5.1, 8.1)."""
-    known = set(variable.ncattrs())
-    missing = [variable.getncattr(name) for name in ("_FillValue", "missing_value") if name in known]
+    attributes = set(variable.ncattrs())
+    missing = [variable.getncattr(name) for name in ("_FillValue", "missing_value") if name in attributes]
     gone = None
     for value in missing:
         same = np.isin(values, np.atleast_1d(value))
         gone = same if gone is None else gone | same
-    if known & {"scale_factor", "add_offset"}:
-        scale = variable.getncattr("scale_factor") if "scale_factor" in known else 1.0
-        offset = variable.getncattr("add_offset") if "add_offset" in known else 0.0
+    if attributes & {"scale_factor", "add_offset"}:
+        scale = variable.getncattr("scale_factor") if "scale_factor" in attributes else 1.0
+        offset = variable.getncattr("add_offset") if "add_offset" in attributes else 0.0
         values = values * np.float64(scale) + np.float64(offset)
     if gone is not None and gone.any():
         values = values.astype(np.result_type(values, np.float32))

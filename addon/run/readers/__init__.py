@@ -52,7 +52,7 @@ def open(path: str | Path) -> Run:
         return found
 
 
-def _check_years(found: Run) -> None:
+def _check_years(run: Run) -> None:
     """Check that the times of a run are dates of Python and of ISO 8601, also in other time zones.
 
     Raises
@@ -62,12 +62,12 @@ def _check_years(found: Run) -> None:
     """
     first, last = limits.RUN_YEARS
     try:
-        years = [times.utc(found, float(found.times[index])).year for index in (0, -1)]
+        years = [times.utc(run, float(run.times[index])).year for index in (0, -1)]
     except OverflowError:
         years = [0]
     if not all(first <= year <= last for year in years):
         reason = f"has times outside of the years {first} to {last}; correct start, interval_s or times_s"
-        raise input_error(Path(found.path) / "run.toml", reason)
+        raise input_error(Path(run.path) / "run.toml", reason)
 
 
 def foreign(path: Path) -> bool:

@@ -44,13 +44,13 @@ def read(paths: list[Path], options: Options) -> Model:
     projection = options.projection or first.projection or land.projection
     grid, said = first.grid(projection, options.at)
     top = float(np.nanmax(bands)) if first.whole else 1.0
-    known = Options(options.start, options.at, projection, options.interval)
+    dated_options = Options(options.start, options.at, projection, options.interval)
 
     def share(index: int) -> NDArray:
         return bands[index] / (top or 1.0)
 
     notes = [each for each in (note, said) if each]
-    return masks.model(times, share, grid, land, known, "burned masks", ours, notes)
+    return masks.model(times, share, grid, land, dated_options, "burned masks", ours, notes)
 
 
 def _times(path: Path, texts: list[str], options: Options) -> tuple[Options, NDArray[np.float64], str]:

@@ -42,9 +42,9 @@ class ModelSource(Source):
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
         """Write the volume of a frame; there is no smoke outside of the model's times."""
         run, time = self.shot.run, float(self.times[frame - 1])
-        known = float(np.clip(time, run.times[0], run.times[-1]))
-        smoke = run.smoke_3d_at(known)
-        if known != time:
+        run_time = float(np.clip(time, run.times[0], run.times[-1]))
+        smoke = run.smoke_3d_at(run_time)
+        if run_time != time:
             smoke[:] = 0.0
         more: dict[str, Any] = {
             "grids": None if self.shot.settings.smoke.complete else SHOWN,
@@ -55,7 +55,7 @@ class ModelSource(Source):
         if len(power):
             more |= {"flame_position": position, "flame_power": power}
         if run.has("temperature_3d"):
-            more["temperature"] = run.temperature_3d_at(known)
+            more["temperature"] = run.temperature_3d_at(run_time)
         mine = files.temporary_path(path)
         with writing(path):
             written = volume.write_levels(
@@ -64,7 +64,7 @@ class ModelSource(Source):
                 run.air_latitude,
                 run.air_longitude,
                 self.shot.relief.air,
-                run.height_3d_at(known),
+                run.height_3d_at(run_time),
                 smoke,
                 self.resolution.voxel,
                 **more,

@@ -60,9 +60,9 @@ def test_a_camera_in_smoke_is_told_of(looking):
 
 def test_pixels_of_flames_in_the_infrared_are_means_over_their_area(looking, monkeypatch):
     """Radiance that rises across a pixel gives its mean, and chosen pixels alone are marched."""
-    found = looking(0.0, 300.0)
-    found.shape, found.distance = SHAPE, np.ones(SHAPE, np.float32)
-    plain, at = found.rays, []
+    camera_eye = looking(0.0, 300.0)
+    camera_eye.shape, camera_eye.distance = SHAPE, np.ones(SHAPE, np.float32)
+    plain, at = camera_eye.rays, []
 
     def through(at_place):
         at.append(at_place)
@@ -71,10 +71,10 @@ def test_pixels_of_flames_in_the_infrared_are_means_over_their_area(looking, mon
     def march(smoke, origins, directions, ends):
         return np.tile(np.float32(at[-1]), (len(ends), 1))
 
-    found._through = lambda at: through(at)
+    camera_eye._through = lambda at: through(at)
     monkeypatch.setattr(eye.volume, "march_infrared", march)
     chosen = np.zeros(SHAPE, bool)
     chosen[3, 4:9] = True
-    mean = found._march_infrared([], chosen, eye._FINER_PLACES, {})
+    mean = camera_eye._march_infrared([], chosen, eye._FINER_PLACES, {})
     assert mean == pytest.approx(np.full((5, 2), 0.5), abs=1e-6)
     assert [len({place[axis] for place in at}) for axis in (0, 1)] == [8, 8]

@@ -149,11 +149,11 @@ def test_smoke_of_the_model_is_used_where_the_run_has_it(smoky, run, run_folder,
     whole = replace(smoky, smoke=replace(smoky.smoke, complete=True))
     shot = Shot(whole, run)
     assert bake.folder(shot) != bake.folder(Shot(whole, runs.open(run_folder)))
-    found = plumes.read(bake.bake(shot, frames=[2]) / "smoke_000002.vdb")
-    assert {"density", "dilution", "shade", "size", "temperature"} <= set(found)
+    grids = plumes.read(bake.bake(shot, frames=[2]) / "smoke_000002.vdb")
+    assert {"density", "dilution", "shade", "size", "temperature"} <= set(grids)
     time = shot.frames.times[1]
     expected = 0.1 * (1.0 + np.interp(time, run.times, np.arange(len(run.times))))
-    assert found["dilution"][0].max() == pytest.approx(expected, rel=1e-3)
+    assert grids["dilution"][0].max() == pytest.approx(expected, rel=1e-3)
     np.save(folder / "air_latitude.npy", run.latitude)  # the same, at separate points
     np.save(folder / "air_longitude.npy", run.longitude[::-1])
     for name in ("height_3d", "smoke_3d"):
@@ -161,7 +161,7 @@ def test_smoke_of_the_model_is_used_where_the_run_has_it(smoky, run, run_folder,
     for name in {"temperature", "wind_east", "wind_north"} & set(run.fields):
         (folder / f"{name}.npy").unlink()
     again = plumes.read(bake.bake(Shot(whole, runs.open(folder)), frames=[2]) / "smoke_000002.vdb")
-    np.testing.assert_allclose(again["dilution"][0], found["dilution"][0], atol=1e-6)
+    np.testing.assert_allclose(again["dilution"][0], grids["dilution"][0], atol=1e-6)
 
 
 def test_only_frames_whose_smoke_is_shown_are_baked(smoky, run):

@@ -85,15 +85,15 @@ def shoot_flow(settings):
         middle = [float(np.mean(axis)) for axis in (run.latitude, run.longitude)]
         key = CameraKey(0.0, middle[0] - 0.03, middle[1], 900.0, "point", *middle, 0.0)
         begin = START + timedelta(minutes=30)
-        made = replace(
+        changed = replace(
             settings,
             run=folder,
             time=replace(settings.time, start=begin, end=begin + timedelta(seconds=30), frames=2),
             smoke=replace(settings.smoke, enabled=True, method="flow", spin_up=120.0, voxel_size=200.0),
             cameras=(replace(settings.cameras[0], rig=Drone(keys=(key,)), frames="2"),),
         )
-        run_checks.check(made, run)
-        return Shot(made, run)
+        run_checks.check(changed, run)
+        return Shot(changed, run)
 
     return shot
 
@@ -104,7 +104,7 @@ def baked(shot):
     import openvdb
 
     place = bake.bake(shot)
-    found = []
+    grids = []
     for path in sorted(place.glob("*_000002.vdb")):
         for grid in openvdb.readAll(str(path))[0]:
             low, high = (np.array(corner) for corner in grid.evalActiveVoxelBoundingBox())
@@ -116,7 +116,7 @@ def baked(shot):
             assert values.min(initial=0.0) >= 0.0
             if grid.name == "density":
                 assert values.max(initial=0.0) <= flow_frames.max_extinction(shot.scale) * 1.01
-                found.append(values)
+                grids.append(values)
     for domain in Flow(shot).domains:
         assert np.isfinite(domain.heights()).all()
         mass = snapshots.load(domain.snapshot_path(2)).mass
@@ -124,8 +124,8 @@ def baked(shot):
         assert mass["airborne"] + mass["left"] == pytest.approx(
             mass["initial"] + mass["emitted"] + mass["entered"] + mass["rounding"], rel=1e-6
         )
-    assert found
-    return found
+    assert grids
+    return grids
 
 
 def thick(found):

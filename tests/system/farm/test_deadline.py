@@ -39,13 +39,13 @@ def planned(film, tmp_path):
 
 def test_a_task_runs_from_the_files_that_the_bundle_sends(read, planned, tmp_path):
     path, out = planned
-    found = read(out / "farm" / "deadline")
-    assert found["service"] == {"maxRetriesPerTask": 3}
-    assert found["job"]["Out"] == {"path": str(out)}
-    assert found["job"]["Scene"] == {"path": str(path)}
-    assert [each["outputs"] for each in found["roots"]] == [[str(out)]]
+    template = read(out / "farm" / "deadline")
+    assert template["service"] == {"maxRetriesPerTask": 3}
+    assert template["job"]["Out"] == {"path": str(out)}
+    assert template["job"]["Scene"] == {"path": str(path)}
+    assert [each["outputs"] for each in template["roots"]] == [[str(out)]]
     there = tmp_path / "worker"
-    (root,) = found["roots"]
+    (root,) = template["roots"]
     for name in root["inputs"]:
         (there / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(Path(root["root"]) / name, there / name)

@@ -85,14 +85,14 @@ def test_a_task_without_a_device_is_tried_again(condor):
 
 
 def test_a_removed_task_is_told_to_end_and_the_final_node_runs(condor):
-    made = batch(condor.films / "told", (1,))
-    folder, command = write("htcondor", made)
+    removed = batch(condor.films / "told", (1,))
+    folder, command = write("htcondor", removed)
     told = "lambda *_: (print(7 * 191, flush=True), sys.exit(143))"
     stand_in(folder, f"import signal, sys; signal.signal(15, {told}); print(1, flush=True); signal.pause()")
     subprocess.run(command, env=condor.environment, check=True)
     log = folder / "log" / "bake-1.out"
     until(lambda: log.exists() and log.read_text() == "1\n")
-    subprocess.run(htcondor.HTCondor().cancel(made.out), env=condor.environment, check=True)
+    subprocess.run(htcondor.HTCondor().cancel(removed.out), env=condor.environment, check=True)
     condor.wait()
     assert log.read_text() == "1\n1337\n"
     assert (folder / "log" / "assemble.out").exists()

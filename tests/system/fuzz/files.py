@@ -200,19 +200,19 @@ def changed(kind, data, rng, folder):
 def work(kind, runs_, seconds, seed, folder):
     """Number of findings of a kind; each fault of one kind is left once."""
     end, read = KINDS[kind]
-    rng, ends, found, known = np.random.default_rng(seed), Counter(), seeds(kind, folder), set()
+    rng, ends, originals, messages = np.random.default_rng(seed), Counter(), seeds(kind, folder), set()
     if kind == "run":
         for name, values in small_run.small_fields().items():
             small_run.write_field(folder, name, values, "npy")
     path = folder / ("run.toml" if kind == "run" else f"fuzzed{end}")
-    for whole in found:
+    for whole in originals:
         path.write_bytes(whole)
         assert polite_error(lambda: read(path)), f"{kind}: a seed is not read"
     began = time.process_time()
     for run in range(runs_):
         if seconds and time.process_time() - began > seconds:
             break
-        data = found[run % len(found)]
+        data = originals[run % len(originals)]
         for _ in range(int(rng.integers(1, 3))):
             data = changed(kind, data, rng, folder)
         path.write_bytes(data)
@@ -225,8 +225,8 @@ def work(kind, runs_, seconds, seed, folder):
             wrong = f"took {took:.1f} s"
         if wrong:
             ends["finding"] += 1
-            if (what := "".join(c for c in wrong if not c.isdigit())[:160]) not in known:
-                known.add(what)
+            if (what := "".join(c for c in wrong if not c.isdigit())[:160]) not in messages:
+                messages.add(what)
                 FINDINGS.mkdir(parents=True, exist_ok=True)
                 (FINDINGS / f"{kind}-{seed}-{run}{end}").write_bytes(data)
                 print(f"fuzz: {kind}, run {run}: {wrong}", flush=True)

@@ -123,7 +123,7 @@ def main():
     share = range(asked.jobs)
     FINDINGS.mkdir(parents=True, exist_ok=True)
     with ProcessPoolExecutor(asked.jobs) as pool:
-        found = list(
+        outcomes = list(
             pool.map(
                 work,
                 [asked.cases // asked.jobs for _ in share],
@@ -132,9 +132,9 @@ def main():
                 [asked.seconds for _ in share],
             )
         )
-    for end, count in sorted(sum((ends for ends, _ in found), Counter()).items()):
+    for end, count in sorted(sum((ends for ends, _ in outcomes), Counter()).items()):
         print(f"fuzz: {count:6} {end}")
-    return 1 if any(count for _, count in found) else 0
+    return 1 if any(count for _, count in outcomes) else 0
 
 
 if __name__ == "__main__":

@@ -49,13 +49,13 @@ def serve(folder, place):
     import firetwin_core as core
 
     with tempfile.TemporaryDirectory() as scratch:
-        known = jobs(core, scratch)
+        calls = jobs(core, scratch)
         for line in sys.stdin:
-            if line.strip() not in known:
-                print(ANSWER + json.dumps(list(known)), flush=True)
+            if line.strip() not in calls:
+                print(ANSWER + json.dumps(list(calls)), flush=True)
                 continue
             start, start_cores = time.perf_counter(), time.process_time()
-            known[line.strip()]()
+            calls[line.strip()]()
             took = time.perf_counter() - start, time.process_time() - start_cores
             print(ANSWER + json.dumps(took), flush=True)
 

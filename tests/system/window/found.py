@@ -88,14 +88,20 @@ def manual() -> Iterator[object]:
     panels = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
     for each in panels:
         bpy.ops.firetwin.help(page=pages.topic(each.bl_idname))
-    found = sum(map(_exists, opened))
-    check(found == len(opened) == len(panels), f"{found} of {len(panels)} panels have a page of the manual")
+    documented = sum(map(_exists, opened))
+    check(
+        documented == len(opened) == len(panels),
+        f"{documented} of {len(panels)} panels have a page of the manual",
+    )
     opened.clear()
     names = [each.bl_idname for each in ui().classes if issubclass(each, bpy.types.Operator)]
     for name in names:
         bpy.ops.wm.doc_view_manual(doc_id=name)
-    found = sum(map(_exists, opened))
-    check(found == len(opened) == len(names), f"{found} of {len(names)} operators have a page of the manual")
+    documented = sum(map(_exists, opened))
+    check(
+        documented == len(opened) == len(names),
+        f"{documented} of {len(names)} operators have a page of the manual",
+    )
     view().spaces.active.show_region_ui = True
     yield 1
     tab()
@@ -150,20 +156,23 @@ def find() -> Iterator[object]:
     yield 0.5
     press("Escape")
     yield 0.3
-    found, failed = set(), []
+    operators, failed = set(), []
     with StandIns() as stand_ins:
         yield from _search(stand_ins, "firetwin cameras set camera quay")
         check(not stand_ins.called, f"F3 finds no operator of another name {stand_ins.called or ''}")
         for words, operator in _entries(menus):
             yield from _search(stand_ins, words, "51-search" if operator == "camera_key" else "")
             if stand_ins.called == [operator]:
-                found.add(operator)
+                operators.add(operator)
             else:
                 failed.append(f"{words}: {stand_ins.called}")
     every = {each.bl_idname for each in ui().classes if issubclass(each, bpy.types.Operator)}
     wanted = {each.removeprefix("firetwin.") for each in every} - set(menus.WITHOUT_ENTRY)
     check(not failed, f"F3 finds every entry by its full name {failed or ''}")
-    check(found == wanted, f"F3 finds {len(found)} of {len(wanted)} operators {sorted(wanted - found) or ''}")
+    check(
+        operators == wanted,
+        f"F3 finds {len(operators)} of {len(wanted)} operators {sorted(wanted - operators) or ''}",
+    )
 
 
 def _entries(menus: object) -> Iterator[tuple[str, str]]:

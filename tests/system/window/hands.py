@@ -163,14 +163,14 @@ def opened(cls: type, top: bool) -> type:
 
 def alone(top: str, take: Callable[[], None], *more: str) -> Iterator[object]:
     """Take a picture of one panel and those in it, open, with these before it."""
-    known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
+    panels = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
     names = {top, *more}
     shown = [
         opened(each, each.bl_idname == top)
-        for each in known
+        for each in panels
         if {each.bl_idname, getattr(each, "bl_parent_id", "")} & names
     ]
-    for each in reversed(known):
+    for each in reversed(panels):
         bpy.utils.unregister_class(each)
     for each in shown:
         bpy.utils.register_class(each)
@@ -180,7 +180,7 @@ def alone(top: str, take: Callable[[], None], *more: str) -> Iterator[object]:
     take()
     for each in reversed(shown):
         bpy.utils.unregister_class(each)
-    for each in known:
+    for each in panels:
         bpy.utils.register_class(each)
     yield 0.5
     tab()

@@ -23,7 +23,7 @@ _OWNERS = (
 
 def take(folder: Path) -> dict[str, list[str]]:
     """Everything that an add-on can leave behind, by kind, as sorted texts; files are below `folder`."""
-    found = {
+    inventory = {
         "classes": [name for name in dir(bpy.types) if isinstance(getattr(bpy.types, name, None), type)],
         "properties": [f"{owner}.{name}" for owner in _OWNERS for name in _properties(owner)],
         "handlers": list(_handlers()),
@@ -36,7 +36,7 @@ def take(folder: Path) -> dict[str, list[str]]:
         "enabled": [addon.module for addon in bpy.context.preferences.addons],
         "files": [str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()],
     }
-    return {kind: sorted(names) for kind, names in found.items()}
+    return {kind: sorted(names) for kind, names in inventory.items()}
 
 
 def _properties(owner: str) -> list[str]:

@@ -39,7 +39,7 @@ def fault(line):
 
 def faults(text):
     """Faults of the blocks of a page, each with its line."""
-    found = []
+    errors = []
     for block in blocks(text):
         if block.mark == "not checked" or block.kind in ("mermaid", "text", "python"):
             continue
@@ -47,10 +47,10 @@ def faults(text):
             try:
                 tomllib.loads(block.code)
             except tomllib.TOMLDecodeError as error:
-                found.append(f"{block.code}: {error}")
+                errors.append(f"{block.code}: {error}")
             continue
-        found += [f"{line}: {why}" for line in block.code.splitlines() if (why := fault(line))]
-    return found
+        errors += [f"{line}: {why}" for line in block.code.splitlines() if (why := fault(line))]
+    return errors
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)

@@ -72,29 +72,29 @@ def make_shot(make_run, tmp_path):
 @given(st.integers(1, 20), st.sets(st.integers(2, 20), max_size=6), st.integers(1, 6))
 def test_chunks_have_every_frame_once_and_build_as_little_as_can_be(built, count, left_out, size):
     listed = sorted({*range(1, count + 1)} - left_out)
-    found = plan.split_frames(listed, size, built)
-    assert [frame for part in found for frame in part] == listed
-    assert max(map(len, found)) <= size
-    parts = [sorted({part_of(frame, built) for frame in part}) for part in found]
-    for part, of in zip(found, parts, strict=True):
+    chunks = plan.split_frames(listed, size, built)
+    assert [frame for part in chunks for frame in part] == listed
+    assert max(map(len, chunks)) <= size
+    parts = [sorted({part_of(frame, built) for frame in part}) for part in chunks]
+    for part, of in zip(chunks, parts, strict=True):
         whole = [frame for frame in listed if part_of(frame, built) in of]
         assert len(of) == 1 or part == whole  # no part is built by two tasks where one could
     for of in {of[0] for of in parts if len(of) == 1}:
-        own = [len(part) for part in found if part_of(part[0], built) == of]
+        own = [len(part) for part in chunks if part_of(part[0], built) == of]
         assert max(own) - min(own) <= 1
         assert len(own) == -(-sum(own) // size)
 
 
 def test_tasks_are_cameras_by_chunks_and_pictures_each_once(make_shot):
     shot = make_shot(10, {"drone": "", "other": "2-9:2"}, chunk=3, more='passes = ["rgb", "depth"]')
-    made = plan.make_job(shot, shot.settings.path, 4)
-    assert [(each.cameras, each.frames) for each in made.tasks] == [
+    farm_job = plan.make_job(shot, shot.settings.path, 4)
+    assert [(each.cameras, each.frames) for each in farm_job.tasks] == [
         (("drone",), "1-3"),
         (("drone",), "4-6"),
         (("drone",), "7-10"),
         (("other",), "2,4,6,8"),
     ]
-    pictures = [picture for each in made.tasks for picture in made.pictures(each)]
+    pictures = [picture for each in farm_job.tasks for picture in farm_job.pictures(each)]
     assert len(pictures) == len(set(pictures)) == 2 * (10 + 4)
 
 
@@ -133,15 +133,15 @@ def test_a_long_film_of_many_cameras_is_planned_in_few_steps(make_shot):
 
     sys.setprofile(count)
     try:
-        made = plan.make_job(shot, shot.settings.path)
+        farm_job = plan.make_job(shot, shot.settings.path)
     finally:
         sys.setprofile(None)
     assert calls < 2_000_000  # most of them for the cameras' paths
-    assert len(made.tasks) == 1 + 20 * 417
+    assert len(farm_job.tasks) == 1 + 20 * 417
     out = shot.settings.path.parent / "out"
-    plan.write(made, out)
-    assert plan.read(out) == made
-    batch = Batch(made, out, tuple(range(1, len(made.tasks) + 1)))
+    plan.write(farm_job, out)
+    assert plan.read(out) == farm_job
+    batch = Batch(farm_job, out, tuple(range(1, len(farm_job.tasks) + 1)))
     for engine in known().values():
         engine().write(batch)
     sizes = {path: path.stat().st_size for path in (out / "farm").rglob("*") if path.is_file()}
@@ -151,14 +151,14 @@ def test_a_long_film_of_many_cameras_is_planned_in_few_steps(make_shot):
 
 def test_a_bundle_lists_every_asset_and_bakes_before_it_renders(make_shot, tmp_path):
     shot = make_shot(4, {"drone": "", "other": ""}, chunk=2, smoke='method = "flow"')
-    made, out = plan.make_job(shot, shot.settings.path, 2), tmp_path / "out"
-    batch = Batch(made, out, tuple(range(1, len(made.tasks) + 1)))
+    farm_job, out = plan.make_job(shot, shot.settings.path, 2), tmp_path / "out"
+    batch = Batch(farm_job, out, tuple(range(1, len(farm_job.tasks) + 1)))
     steps = [each["name"] for each in openjd.template(batch)["steps"]]
     assert steps == ["Bake", "Render", "Assemble"]
     command = deadline.Deadline().write(batch)
     listed = json.loads((Path(command[-1]) / "asset_references.json").read_text())
-    assert set(made.assets) < set(listed["assetReferences"]["inputs"]["filenames"])
-    partial = Batch(made, out, tuple(made.numbers("render")[:1]))
+    assert set(farm_job.assets) < set(listed["assetReferences"]["inputs"]["filenames"])
+    partial = Batch(farm_job, out, tuple(farm_job.numbers("render")[:1]))
     assert [each["name"] for each in openjd.template(partial)["steps"]] == ["Render", "Assemble"]
 
 
@@ -249,18 +249,18 @@ entry = st.builds(
 
 
 @given(st.lists(entry, max_size=5), st.integers(1, 30))
-def test_entries_come_back_and_a_line_that_is_cut_off_counts_for_nothing(tmp_path_factory, found, cut):
+def test_entries_come_back_and_a_line_that_is_cut_off_counts_for_nothing(tmp_path_factory, written, cut):
     out = tmp_path_factory.mktemp("out")
     with entries.attempt(out, 12) as log:
-        log.write(*found)
+        log.write(*written)
         log.end(0)
     (read,) = entries.attempts(out, 12)
-    assert (read.number, read.ended, read.entries) == (12, 0, found)
+    assert (read.number, read.ended, read.entries) == (12, 0, written)
     assert entries.attempts(out, 13) == []
     text = log.path.read_bytes()
     log.path.write_bytes(text[:-cut])
     (read,) = entries.attempts(out)
-    assert (read.ended, read.entries) == (None, found)
+    assert (read.ended, read.entries) == (None, written)
 
 
 @pytest.fixture
@@ -288,22 +288,22 @@ def render(out, made_with, number, frames, ended: int | None = 0, content_of=b"p
 
 def test_assemble_names_what_is_missing_and_refuses_what_is_damaged(film):
     out, made_with = film
-    made = plan.read(out)
+    farm_job = plan.read(out)
     render(out, made_with, 1, [1, 2])
     render(out, made_with | {("drone", "rgb"): {"settings": "others"}}, 2, [3])
     (out / Picture("drone", 2, "rgb").files()[0]).write_bytes(b"pictUre 2")
-    whole, lost = assemble.check_pictures(made, out, made_with)
+    whole, lost = assemble.check_pictures(farm_job, out, made_with)
     assert [found[0].frame for found in whole] == [1]
     assert list(assemble.format_missing(lost)) == [
         f"drone rgb 2: {assemble.DAMAGED}",
         f"drone rgb 3: {assemble.OTHER}",
         f"drone rgb 4: {assemble.NOT_MADE}",
     ]
-    assert assemble.tasks_of_pictures(made, lost) == [1, 2]
-    assert assemble.tasks_of_pictures(made, [Picture("drone", 4, "rgb")]) == [2]
+    assert assemble.tasks_of_pictures(farm_job, lost) == [1, 2]
+    assert assemble.tasks_of_pictures(farm_job, [Picture("drone", 4, "rgb")]) == [2]
     render(out, made_with, 1, [2])
     render(out, made_with, 2, [3, 4])
-    whole, lost = assemble.check_pictures(made, out, made_with)
+    whole, lost = assemble.check_pictures(farm_job, out, made_with)
     assert lost == {}
     with Store(out, create=True) as store:
         assemble.add_to_store(store, whole, made_with)
@@ -366,16 +366,16 @@ def test_a_task_publishes_what_it_made_and_keeps_what_was_whole(film, tmp_path_f
 def test_a_full_disk_of_a_node_is_named_with_its_file(film, tmp_path, monkeypatch):
     out, made_with = film
     render(out, made_with, 1, [1])
-    known = [entry for each in entries.attempts(out, 1) for entry in each.entries]
-    assert known
+    logged = [entry for each in entries.attempts(out, 1) for entry in each.entries]
+    assert logged
 
     def full(source, target):
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(private, "_link_or_copy", full)
     with entries.attempt(out, 1) as log, pytest.raises(FullDiskError) as caught:
-        PrivateFolder(tmp_path, out, log).seed(known, made_with)
-    assert str(tmp_path / known[0].path) in str(caught.value)
+        PrivateFolder(tmp_path, out, log).seed(logged, made_with)
+    assert str(tmp_path / logged[0].path) in str(caught.value)
     assert task.exit_status(caught.value) == 75
 
 
@@ -384,17 +384,17 @@ def test_status_is_read_from_files(film):
     assert status.gather(out).waiting == [1, 2]
     assert status.gather(out).seconds_left is None
     render(out, made_with, 1, [1], ended=None)
-    found = status.gather(out)
-    assert (found.running, found.waiting, found.finished, found.pictures) == ([1], [2], 1, 4)
+    state = status.gather(out)
+    assert (state.running, state.waiting, state.finished, state.pictures) == ([1], [2], 1, 4)
     late = status.gather(out, now=found_time(out) + 2 * status.PATIENCE)
     assert late.failed == [1]
     assert "heartbeat stopped" in late.errors[1]
     render(out, made_with, 1, [2])
     render(out, made_with, 2, [3], ended=75)
-    found = status.gather(out)
-    assert (found.done, found.failed, found.errors) == ([1], [2], {2: "no luck"})
-    assert "task 2 failed: no luck" in status.format_text(found)
-    json.dumps(found.as_json())
+    state = status.gather(out)
+    assert (state.done, state.failed, state.errors) == ([1], [2], {2: "no luck"})
+    assert "task 2 failed: no luck" in status.format_text(state)
+    json.dumps(state.as_json())
     (out / Picture("drone", 1, "rgb").files()[0]).unlink()
     assert status.gather(out).waiting == [1]
 

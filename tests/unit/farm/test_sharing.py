@@ -33,14 +33,14 @@ def make(session, picture):
 
 def render(session, tell=lambda text: None):
     """Render as a job does; the frames that it made."""
-    made = []
+    rendered = []
     while free := session.free(WANTED, tell):
         with session.queue(free, tell) as queue:
             while queue.step():
-                assert len(made) < ENDLESS
+                assert len(rendered) < ENDLESS
                 make(session, Picture(queue.camera, queue.frame, "rgb"))
-                made.append(queue.frame)
-    return made
+                rendered.append(queue.frame)
+    return rendered
 
 
 def at_once(out, *samples):

@@ -123,10 +123,10 @@ def test_arrival_is_held_to_when_half_of_a_cell_burned(seed):
     share = np.sort(rng.random((6, 5, 4)), axis=0) * rng.random((5, 4))
     own = rng.uniform(-50, 500, (5, 4))
     own[0, 0] = np.nan
-    found = held(own, times, lambda i: share[i])
+    times_held = held(own, times, lambda i: share[i])
     for k, time in enumerate(times):
-        np.testing.assert_array_equal(found <= time, share[k] > 0.5)
+        np.testing.assert_array_equal(times_held <= time, share[k] > 0.5)
     by_share = from_share(times, lambda i: share[i], own.shape)
-    assert ((found == own) | (found == by_share) | np.isnan(found)).all()
+    assert ((times_held == own) | (times_held == by_share) | np.isnan(times_held)).all()
     here = np.searchsorted(times, own) == np.searchsorted(times, by_share)
-    np.testing.assert_array_equal(found[here & np.isfinite(by_share)], own[here & np.isfinite(by_share)])
+    np.testing.assert_array_equal(times_held[here & np.isfinite(by_share)], own[here & np.isfinite(by_share)])

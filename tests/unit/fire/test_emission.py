@@ -44,14 +44,14 @@ def transcription(id, number, seed):
 
 
 def test_one_particle_by_hand():
-    found = cloud(10.0)
+    alive = cloud(10.0)
     i = 3
-    source, number = int(found.source[i]), int(found.number[i])
+    source, number = int(alive.source[i]), int(alive.number[i])
     u = transcription(7 + source, number, 1)
     launch = (number + u["launch"]) / 4.0
     age = 10.0 - launch
-    assert found.age[i] == pytest.approx(age)
-    assert found.life[i] == pytest.approx(5 + 55 * u["life"])
+    assert alive.age[i] == pytest.approx(age)
+    assert alive.life[i] == pytest.approx(5 + 55 * u["life"])
     turn, spread = 2 * np.pi * u["turn"], 4 * u["spread"]
     velocity = [spread * np.cos(turn), spread * np.sin(turn), 5 + 20 * u["rise"]]
     place = PLACES[source] + 10 * np.array([u["east"] - 0.5, u["north"] - 0.5, 0])
@@ -65,8 +65,8 @@ def test_one_particle_by_hand():
         particles.lift(200.0),
         wind_end=WIND[0] + gust * 10.0,
     )
-    np.testing.assert_allclose(found.position[i], moved[0][0], atol=1e-11)
-    np.testing.assert_allclose(found.velocity[i], moved[1][0], atol=1e-11)
+    np.testing.assert_allclose(alive.position[i], moved[0][0], atol=1e-11)
+    np.testing.assert_allclose(alive.velocity[i], moved[1][0], atol=1e-11)
 
 
 def named(found):
@@ -76,13 +76,13 @@ def named(found):
 
 
 def test_every_particle_that_lives_is_there():
-    found = named(cloud(40.0))
+    particles = named(cloud(40.0))
     for source in range(3):
         for number in range(400):
             u = transcription(7 + source, number, 1)
             launch = (number + u["launch"]) / 4.0
             lives = launch <= 40.0 < launch + 5 + 55 * u["life"]
-            assert ((source, number) in found) == lives
+            assert ((source, number) in particles) == lives
     assert len(cloud(-0.1)) == 0
     assert len(cloud(100.0 + 60.0)) == 0
     assert 0 < len(cloud(140.0)) < len(cloud(90.0))
@@ -101,14 +101,14 @@ def test_a_frame_needs_no_frame_before_it():
     landed = {}
     times = np.linspace(0, 150, 61)
     for time in np.random.default_rng(0).permutation(times):
-        found = cloud(time, ground=ground)
+        particles = cloud(time, ground=ground)
         again = cloud(time, ground=ground)
-        np.testing.assert_array_equal(found.position, again.position)
-        gap = found.position[:, 2] - ground.at(found.position[:, :2])
+        np.testing.assert_array_equal(particles.position, again.position)
+        gap = particles.position[:, 2] - ground.at(particles.position[:, :2])
         assert gap.min(initial=0) >= -1e-9
-        for name, i in named(found).items():
-            if found.landed[i]:
-                landed.setdefault(name, []).append((time, *found.position[i]))
+        for name, i in named(particles).items():
+            if particles.landed[i]:
+                landed.setdefault(name, []).append((time, *particles.position[i]))
     assert len(landed) > 100
     for seen in landed.values():
         assert len({place[1:] for place in seen}) == 1

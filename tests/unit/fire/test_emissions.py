@@ -55,8 +55,8 @@ def test_smoke_is_emission_factor_times_fuel_burned(make_run, load, kind):
 def test_smoke_of_timber_is_that_of_litter_and_crowns_in_both_phases(make_run):
     """Added up piece by piece from the loads and how they burn out, against what sources give."""
     fire = fire_of(make_run, 2.0, 1.0)
-    found, fuel = fire.sources(140.0), fire.fuel
-    lit = np.flatnonzero((fuel.begin < 140.0) & np.isin(fuel.cell, found.cell))
+    emitted, fuel = fire.sources(140.0), fire.fuel
+    lit = np.flatnonzero((fuel.begin < 140.0) & np.isin(fuel.cell, emitted.cell))
     age, crossing = 140.0 - fuel.begin[lit], fuel.crossing[lit]
     lost, flames = heat_release.consumed(age, crossing, fuel.slow[lit], LITTER.residence)
     crowns, _ = heat_release.consumed(age, crossing, CROWN.burn_out[0])
@@ -65,14 +65,14 @@ def test_smoke_of_timber_is_that_of_litter_and_crowns_in_both_phases(make_run):
     heat_of = fuel.surface[lit] * (flames * LITTER.heat[0] + (lost - flames) * LITTER.heat[1])
     heat_of += fuel.canopy[lit] * crowns * CROWN.heat[0]
     assert 0.1 < (fuel.surface[lit] * flames).sum() / (fuel.surface[lit] * lost).sum() < 0.9
-    cells = np.unique(found.cell)
+    cells = np.unique(emitted.cell)
     expected = [
-        found.power[found.cell == cell].sum()
+        emitted.power[emitted.cell == cell].sum()
         * smoke[fuel.cell[lit] == cell].sum()
         / heat_of[fuel.cell[lit] == cell].sum()
         for cell in cells
     ]
-    assert [found.smoke[found.cell == cell].sum() for cell in cells] == pytest.approx(expected, rel=1e-9)
+    assert [emitted.smoke[emitted.cell == cell].sum() for cell in cells] == pytest.approx(expected, rel=1e-9)
 
 
 def test_merging_sources_keeps_their_smoke(make_run):

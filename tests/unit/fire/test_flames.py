@@ -76,7 +76,7 @@ def radiated(length, times=(3.0, 7.7, 13.1), **changes):
         total = 0.0
         for time in times:
             burning = flames([front(length, 0.8 * length)], time, **changes)
-            found = volume.march_infrared(
+            rays = volume.march_infrared(
                 [],
                 origins[seen],
                 np.broadcast_to(ahead, (seen.sum(), 3)),
@@ -86,7 +86,7 @@ def radiated(length, times=(3.0, 7.7, 13.1), **changes):
                 **PLANCK,
                 **EMPTY,
             )
-            total += found[:, 0].sum() * pixel**2 / (2.0 * length) / len(times)
+            total += rays[:, 0].sum() * pixel**2 / (2.0 * length) / len(times)
         sums.append(total)
     steps = np.radians(np.arange(0.5, 90.0))
     # A wall that is seen from the side is foreshortened: the mean of |cos| over the azimuth is 2 / pi.

@@ -169,14 +169,14 @@ def test_brightness_is_even_and_the_front_between_the_two(opened, flux, fraction
     run = opened(flux)
     for i in range(2):
         before, after = flux[i], flux[i + 1]
-        found = at_time(run, STEP * (i + fraction))
+        between = at_time(run, STEP * (i + fraction))
         whole = (1 - fraction) * brightness(before) + fraction * brightness(after)
-        assert brightness(found) == pytest.approx(whole, rel=1e-5)
-        assert not found[(before == 0) & (after == 0)].any()
-        assert (found[before > 0] > 0).all()
+        assert brightness(between) == pytest.approx(whole, rel=1e-5)
+        assert not between[(before == 0) & (after == 0)].any()
+        assert (between[before > 0] > 0).all()
         low, high = np.minimum(before, after), np.maximum(before, after)
-        assert (found <= 1.06 * high).all()
-        assert (found >= 0.94 * low).all()
+        assert (between <= 1.06 * high).all()
+        assert (between >= 0.94 * low).all()
 
 
 @quick

@@ -140,7 +140,7 @@ def test_a_landscape_larger_than_the_map(tmp_path, converted):
 
 def test_a_ring_that_is_not_closed(tmp_path):
     corners = ["8.1,41.1,0", "8.2,41.1,0", "8.2,41.2,0", "8.1,41.2,0"]
-    found = []
+    rings = []
     for name, points in (("open", corners), ("closed", [*corners, corners[0]])):
         path = tmp_path / f"{name}.kml"
         path.write_text(
@@ -148,9 +148,9 @@ def test_a_ring_that_is_not_closed(tmp_path):
             f"{' '.join(points)}</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></kml>"
         )
         (perimeter,) = observations.read([f"{path}@2020-07-18T12:00Z"]).perimeters
-        found.append(perimeter.polygons[0][0])
-    np.testing.assert_array_equal(found[0], found[1])
-    assert found[0].shape == (4, 2)
+        rings.append(perimeter.polygons[0][0])
+    np.testing.assert_array_equal(rings[0], rings[1])
+    assert rings[0].shape == (4, 2)
 
 
 def test_fronts_have_holes(tmp_path):

@@ -523,14 +523,12 @@ def test_an_lcp_is_what_gdal_reads(tmp_path):
 
     layers = np.random.default_rng(3).integers(0, 300, (7, 9, 8)).astype(np.int16)
     path = made.lcp(tmp_path / "a.lcp", layers, north=210.0)
-    found = raster.landscape(path)
+    maps = raster.landscape(path)
     with rasterio.open(path, driver="LCP") as file:
-        np.testing.assert_array_equal(found["elevation"].values, file.read(1))
-        np.testing.assert_allclose(found["height"].values, file.read(6) / 10, rtol=1e-6)
-        np.testing.assert_allclose(found["bulk_density"].values, file.read(8) / 100, rtol=1e-6)
-        assert file.transform * (0.5, 0.5) == pytest.approx(
-            (found["elevation"].x[0], found["elevation"].y[0])
-        )
+        np.testing.assert_array_equal(maps["elevation"].values, file.read(1))
+        np.testing.assert_allclose(maps["height"].values, file.read(6) / 10, rtol=1e-6)
+        np.testing.assert_allclose(maps["bulk_density"].values, file.read(8) / 100, rtol=1e-6)
+        assert file.transform * (0.5, 0.5) == pytest.approx((maps["elevation"].x[0], maps["elevation"].y[0]))
 
 
 def test_an_ascii_grid_is_what_gdal_reads(tmp_path):

@@ -260,16 +260,16 @@ def test_halves_show_the_middles_and_quarters_all():
 
 def test_names_and_time_are_written_where_they_should_be():
     dark = np.zeros((180, 320, 3), np.float32)
-    found = split_screen.sheet([dark, dark], [[("#ff0000", "one")], [("#00ff00", "two")]], ["later"])
-    red, green = found[..., 0] - found[..., 1] > 0.5, found[..., 1] - found[..., 0] > 0.5
+    sheet = split_screen.sheet([dark, dark], [[("#ff0000", "one")], [("#00ff00", "two")]], ["later"])
+    red, green = sheet[..., 0] - sheet[..., 1] > 0.5, sheet[..., 1] - sheet[..., 0] > 0.5
     for chip, half, other in (
         (red, np.s_[:20, :160], np.s_[:, 160:]),
         (green, np.s_[:20, 160:], np.s_[:, :160]),
     ):
         assert chip[half].any()
         assert not chip[other].any()
-    assert found[160:, 4:60].max() > 0.5
-    assert found[60:150, 4:150].max() == 0.0
+    assert sheet[160:, 4:60].max() > 0.5
+    assert sheet[60:150, 4:150].max() == 0.0
 
 
 def test_marks_are_written_next_to_their_places_and_never_over_each_other():
@@ -293,14 +293,14 @@ def test_marks_are_written_next_to_their_places_and_never_over_each_other():
 
 
 def test_a_sample_at_half_its_pace_is_twice_as_late():
-    found = stored.load()
-    slow = sample.at_pace(found, 0.5)
-    burns = found.arrival > 0.0
+    original = stored.load()
+    slow = sample.at_pace(original, 0.5)
+    burns = original.arrival > 0.0
     late = burns & np.isfinite(slow.arrival)
-    np.testing.assert_allclose(slow.arrival[late], 2.0 * found.arrival[late])
-    assert np.isnan(slow.arrival[found.arrival > 60_000.0]).all()
-    before = found.arrival <= 0.0
-    assert np.array_equal(slow.arrival[before], found.arrival[before])
+    np.testing.assert_allclose(slow.arrival[late], 2.0 * original.arrival[late])
+    assert np.isnan(slow.arrival[original.arrival > 60_000.0]).all()
+    before = original.arrival <= 0.0
+    assert np.array_equal(slow.arrival[before], original.arrival[before])
 
 
 def test_in_another_run_a_camera_records_what_comparing_needs():

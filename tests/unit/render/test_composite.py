@@ -85,13 +85,13 @@ def test_flames_that_dim_the_far_surface_are_seen():
     behind = {"flame_distance": np.full(SIZE, 5000.0, np.float32), "before": np.ones(SIZE, np.float32)}
     nearness = 1000.0 / distance
     nearness[:, 4] = 0.5 * (5.0 + 0.25)
-    found = surfaces(1.0, distance, nearness=nearness, **behind)
-    seen = composite.taps(found)
+    scene = surfaces(1.0, distance, nearness=nearness, **behind)
+    seen = composite.taps(scene)
     marched = np.zeros((*SIZE, 3, 8), np.float32)
     marched[..., 3] = marched[..., 7] = 1.0
     past = seen > 1000.0  # opaque flames at 1000 m
     marched[past, :3], marched[past, 3], marched[past, 4:7] = 5.0, 0.0, 5.0
-    picture = composite.compose(found, seen, marched).picture
+    picture = composite.compose(scene, seen, marched).picture
     assert picture[3, 4] == pytest.approx(0.5 * 1.0 + 0.5 * 5.0)
     assert picture[3, 7] == pytest.approx(5.0)
 
@@ -164,7 +164,7 @@ def test_grain_of_flames_leaves_none_behind_smoke():
     grains = (random.uniform(size=(60, 80, 1)) < 0.5) * np.full(3, 20.0, np.float32)
     spread = np.full((60, 80, 3), 11.0, np.float32)
     shape, near = (60, 80), np.full((60, 80), 100.0, np.float32)
-    found = composite.Surfaces(
+    scene = composite.Surfaces(
         colour=spread,
         noisy=(1.0 + grains).astype(np.float32),
         fire=grains.astype(np.float32),
@@ -177,7 +177,7 @@ def test_grain_of_flames_leaves_none_behind_smoke():
         before=np.zeros(shape, np.float32),
         rays=3,
     )
-    shown = picture(found, shine=0.0)[..., 0]
+    shown = picture(scene, shine=0.0)[..., 0]
     assert shown.std() < 0.5 * (np.exp(-0.1) - np.exp(-3.0)) * 10.0 * 0.5
 
 
@@ -215,14 +215,14 @@ def test_gaps_that_no_central_ray_meets_show_the_flames_behind(before):
 
 def test_flames_behind_foliage_leave_its_colours_as_they_are():
     """Blocks of the darkest leaf of each neighbourhood would show if pixels counted as edges in smoke."""
-    found, at, marched = flames_behind_foliage(1.0)
+    scene, at, marched = flames_behind_foliage(1.0)
     leaves = np.float32(0.2) + np.float32(0.1) * (np.indices(SIZE).sum(axis=0) % 2)[..., None] * np.ones(
         3, np.float32
     )
-    found = dataclasses.replace(found, colour=leaves, noisy=leaves)
+    scene = dataclasses.replace(scene, colour=leaves, noisy=leaves)
     opaque = np.where(at > 250.0, np.float32(0.1), np.float32(1.0))[..., None]
     parts = [marched[..., :3], opaque, marched[..., :3], np.where(at > 250.0, 0.3, 1.0)[..., None]]
-    shown = composite.compose(found, at, np.concatenate(parts, axis=-1).astype(np.float32), 1.0).picture
+    shown = composite.compose(scene, at, np.concatenate(parts, axis=-1).astype(np.float32), 1.0).picture
     assert shown == pytest.approx(leaves, rel=1e-4)
 
 
@@ -276,13 +276,13 @@ def test_a_gap_in_foliage_is_a_soft_spot_and_keeps_its_light():
 
 @pytest.mark.parametrize(("distance", "seen"), [(100.0, 1.0), (300.0, 0.0)])
 def test_text_is_in_front_of_what_is_farther_away(distance, seen):
-    found = surfaces(3.0, 200.0)
+    scene = surfaces(3.0, 200.0)
     light = np.full((*SIZE, 3), 0.5 * 7.0, np.float32)  # half of each pixel
     text = light, np.full(SIZE, 0.5, np.float32), np.full(SIZE, distance, np.float32)
     front = np.zeros((*SIZE, 4), np.float32)
     front[..., 3] = 1.0
     shown = composite.place_over(
-        found.colour, composite.text_layer(found, composite.taps(found), text, front)
+        scene.colour, composite.text_layer(scene, composite.taps(scene), text, front)
     )
     assert shown == pytest.approx(seen * 5.0 + (1.0 - seen) * 3.0)
 
@@ -317,7 +317,7 @@ def test_layers_add_up_and_are_positive(seed, white):
     random = np.random.default_rng(seed)
     fire, sun, firelight, sky = random.exponential(1.0, (4, *SIZE, 3)).astype(np.float32)
     noisy = fire + sun + firelight + sky
-    found = surfaces(
+    scene = surfaces(
         0.0,
         random.choice([100.0, 900.0, FAR], SIZE),
         colour=noisy * random.uniform(0.5, 2.0, (*SIZE, 1)).astype(np.float32),
@@ -325,20 +325,22 @@ def test_layers_add_up_and_are_positive(seed, white):
         fire=fire,
         fire_distance=np.full(SIZE, 200.0, np.float32),
     )
-    at = composite.taps(found)
+    at = composite.taps(scene)
     smoke = even_smoke(at)
     flames = smoke[..., :3] * random.uniform(0.0, 1.0, (*SIZE, 1, 1)).astype(np.float32)
     marched = np.concatenate([smoke, flames, smoke[..., 3:]], axis=-1)
-    made = composite.compose(found, at, marched, 1.0 if white else None)
-    made = composite.soften_highlights(made, 2.0) if white else made
-    lights = composite.split_light(found, made.solid, sun, firelight)
-    assert made.solid + made.fire + made.smoke == pytest.approx(made.picture, rel=1e-5, abs=1e-5)
-    assert sum(lights) == pytest.approx(made.solid, rel=1e-5, abs=1e-5)
-    for layer in (made.solid, made.fire, made.smoke, *lights):
+    composed = composite.compose(scene, at, marched, 1.0 if white else None)
+    composed = composite.soften_highlights(composed, 2.0) if white else composed
+    lights = composite.split_light(scene, composed.solid, sun, firelight)
+    assert composed.solid + composed.fire + composed.smoke == pytest.approx(
+        composed.picture, rel=1e-5, abs=1e-5
+    )
+    assert sum(lights) == pytest.approx(composed.solid, rel=1e-5, abs=1e-5)
+    for layer in (composed.solid, composed.fire, composed.smoke, *lights):
         assert layer.min() > -1e-4
-    without = composite.compose(found, at, smoke, 1.0 if white else None)
+    without = composite.compose(scene, at, smoke, 1.0 if white else None)
     without = composite.soften_highlights(without, 2.0) if white else without
-    assert without.picture == pytest.approx(made.picture, rel=1e-5, abs=1e-5)
+    assert without.picture == pytest.approx(composed.picture, rel=1e-5, abs=1e-5)
 
 
 def test_lights_have_the_shares_of_their_groups():

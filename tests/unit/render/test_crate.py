@@ -59,36 +59,40 @@ def ids(value):
 def test_all_files_are_described_with_their_hashes(scene, film, capsys):
     assert cli.main(["cite", str(scene), "--crate", str(film), "--license", LICENCE]) == 0
     assert capsys.readouterr().out.strip() == str(film / "ro-crate-metadata.json")
-    found = entities(film)
-    root = found["./"]
+    crate_entities = entities(film)
+    root = crate_entities["./"]
     assert sorted(ids(root["hasPart"])) == sorted([*NAMES, "manifest.json"])
     for name in NAMES:
         data = (film / name).read_bytes()
-        assert found[name]["sha256"] == hashlib.sha256(data).hexdigest()
-        assert found[name]["contentSize"] == str(len(data))
-    assert [found[name]["encodingFormat"] for name in NAMES] == ["image/png", "image/x-exr", "video/mp4"]
-    assert found[NAMES[0]]["temporalCoverage"].startswith("2014-09-17T21:00")
-    assert root["creditText"] == found[NAMES[0]]["creditText"] == "Map makers, CC BY"
+        assert crate_entities[name]["sha256"] == hashlib.sha256(data).hexdigest()
+        assert crate_entities[name]["contentSize"] == str(len(data))
+    assert [crate_entities[name]["encodingFormat"] for name in NAMES] == [
+        "image/png",
+        "image/x-exr",
+        "video/mp4",
+    ]
+    assert crate_entities[NAMES[0]]["temporalCoverage"].startswith("2014-09-17T21:00")
+    assert root["creditText"] == crate_entities[NAMES[0]]["creditText"] == "Map makers, CC BY"
     assert "is synthetic" in root["description"]
     assert "Blender 4.5.15 rendered" in root["description"]
-    assert found[root["license"]["@id"]]["@id"] == LICENCE
-    assert "doi" not in json.dumps(found).lower()
+    assert crate_entities[root["license"]["@id"]]["@id"] == LICENCE
+    assert "doi" not in json.dumps(crate_entities).lower()
 
 
 def test_the_rendering_names_programs_inputs_and_sources(scene, film, tmp_path):
     assert cli.main(["cite", str(scene), "--crate", str(film)]) == 0
-    found = entities(film)
-    action = found["#render"]
-    assert [found[each]["version"] for each in ids(action["instrument"])] == ["0.2.0", "4.5.15"]
+    crate_entities = entities(film)
+    action = crate_entities["#render"]
+    assert [crate_entities[each]["version"] for each in ids(action["instrument"])] == ["0.2.0", "4.5.15"]
     assert sorted(ids(action["result"])) == sorted(NAMES)
-    run = found[action["object"]["@id"]]
-    fields = {found[each]["name"]: found[each]["sha256"] for each in ids(run["hasPart"])}
+    run = crate_entities[action["object"]["@id"]]
+    fields = {crate_entities[each]["name"]: crate_entities[each]["sha256"] for each in ids(run["hasPart"])}
     assert fields == content.inputs(readers.open(tmp_path / "run"), tmp_path / "cache") | {
         "elevation model": "0" * 64
     }
-    cited = [found[each] for each in ids(found["./"]["mentions"])[1:]]
+    cited = [crate_entities[each] for each in ids(crate_entities["./"]["mentions"])[1:]]
     assert {"algorithms", "fire model", "facts"} == {each["description"] for each in cited}
-    assert found[found["./"]["license"]["@id"]]["description"].startswith("Not chosen")
+    assert crate_entities[crate_entities["./"]["license"]["@id"]]["description"].startswith("Not chosen")
 
 
 def test_members_belong_to_the_run_of_the_film(make_run, tmp_path):

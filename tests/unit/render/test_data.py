@@ -116,16 +116,16 @@ def made(tmp_path, monkeypatch):
 
 def test_the_file_has_its_layers(made):
     files, given = made
-    found = sensor.read_channels(files["exr"])
-    assert set(found) == set(data._NAMES)
-    assert found["Z"][0, 0] == np.float32(1.0e10)
-    assert np.array_equal(found["thermal.kelvin"], given["warm"])
-    assert [found[f"N.{axis}"][5, 5] for axis in "XYZ"] == pytest.approx([0.1, 0.2, 0.9])
+    channels = sensor.read_channels(files["exr"])
+    assert set(channels) == set(data._NAMES)
+    assert channels["Z"][0, 0] == np.float32(1.0e10)
+    assert np.array_equal(channels["thermal.kelvin"], given["warm"])
+    assert [channels[f"N.{axis}"][5, 5] for axis in "XYZ"] == pytest.approx([0.1, 0.2, 0.9])
     solid = given["surface"] != masks.SKY
-    assert found["P.Z"][solid] == pytest.approx(0.0, abs=1e-4)
-    assert found["P.X"][HEIGHT // 2, -1] == pytest.approx(10.0 + 80.0 * 31 / 32)
-    assert not found["P.X"][~solid].any()
-    assert found["forward.u"][solid] == pytest.approx(-2.0, abs=1e-4)
+    assert channels["P.Z"][solid] == pytest.approx(0.0, abs=1e-4)
+    assert channels["P.X"][HEIGHT // 2, -1] == pytest.approx(10.0 + 80.0 * 31 / 32)
+    assert not channels["P.X"][~solid].any()
+    assert channels["forward.u"][solid] == pytest.approx(-2.0, abs=1e-4)
 
 
 def test_openexr_reads_types_and_names(made):
@@ -148,10 +148,10 @@ def test_openexr_reads_types_and_names(made):
 def test_another_reader_finds_the_mattes(made):
     reader = pytest.importorskip("cryptomatte_api")
     files, given = made
-    found = {
+    layers = {
         each.metadata().name(): each for each in reader.Cryptomatte.load(files["exr"], load_preview=False)
     }
-    mattes = found["CryptoClass"].masks()
+    mattes = layers["CryptoClass"].masks()
     assert sum(mattes.values()) == pytest.approx(1.0, abs=1e-5)
     inner = (slice(6, -2), slice(None))
     for name in ("fire", "tree", "smoke"):
@@ -160,5 +160,5 @@ def test_another_reader_finds_the_mattes(made):
     assert mattes["smoke"][1] == pytest.approx(
         np.where(given["surface"][1] == masks.SMOKE, 1.0, 0.75), abs=0.3
     )
-    trees = found["CryptoTree"].masks()
+    trees = layers["CryptoTree"].masks()
     assert np.array_equal(trees["tree_00000003"][:8] > 0.1, mattes["tree"][:8] > 0.1)

@@ -46,7 +46,7 @@ def shot(monkeypatch):
 def test_tags_of_a_frame(shot, tmp_path):
     openexr = pytest.importorskip("OpenEXR")
     exr_tags.write_radiance(tmp_path / "a.exr", np.full((4, 8, 3), 0.5, np.float32), shot, "drone", 1)
-    found = openexr.File(str(tmp_path / "a.exr")).header()
+    header = openexr.File(str(tmp_path / "a.exr")).header()
     expected = {
         "colorInteropID": "lin_ap1_scene",
         "comments": "Firetwin: King (synthetic); scene-linear radiance",
@@ -58,14 +58,14 @@ def test_tags_of_a_frame(shot, tmp_path):
         "framesPerSecond": Fraction(24),
         "pinholeFocalLength": pytest.approx(18.0 / 0.6),
     }
-    assert {name: found[name] for name in expected} == expected
-    assert found["Software"].startswith("Firetwin ")
-    assert found["sensorOverallDimensions"] == pytest.approx([36.0, 18.0])
-    assert [found[name] for name in ("latitude", "longitude", "altitude")] == pytest.approx(
+    assert {name: header[name] for name in expected} == expected
+    assert header["Software"].startswith("Firetwin ")
+    assert header["sensorOverallDimensions"] == pytest.approx([36.0, 18.0])
+    assert [header[name] for name in ("latitude", "longitude", "altitude")] == pytest.approx(
         [38.8 - 200 / 110992, -120.6 + 300 / 86880, 1900.0], rel=1e-5
     )
-    assert found["worldToCamera"].shape == found["worldToNDC"].shape == (4, 4)
-    assert "chromaticities" not in found
+    assert header["worldToCamera"].shape == header["worldToNDC"].shape == (4, 4)
+    assert "chromaticities" not in header
     assert sensor.read_image(tmp_path / "a.exr")[0, 0] == pytest.approx([0.5] * 3, abs=5e-4)
 
 

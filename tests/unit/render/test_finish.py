@@ -98,13 +98,13 @@ def view(perspective):
 def test_points_of_a_depth_are_where_the_ground_is(perspective):
     planar = np.full((20, 40), 1000.0, np.float32)
     planar[0] = 1e10
-    found = pixel_rays.points(view(perspective), 1, planar)
-    assert np.isnan(found[0]).all()
-    assert np.abs(found[1:, :, 2]).max() < 1e-9
-    assert found[10, 20, :2] == pytest.approx([10.0 - 12.5, 20.0 - 12.5])  # half a pixel right and down
-    assert found[19, 39, :2] == pytest.approx([10.0 - 250.0 + 12.5, 20.0 - 500.0 + 12.5])
+    points = pixel_rays.points(view(perspective), 1, planar)
+    assert np.isnan(points[0]).all()
+    assert np.abs(points[1:, :, 2]).max() < 1e-9
+    assert points[10, 20, :2] == pytest.approx([10.0 - 12.5, 20.0 - 12.5])  # half a pixel right and down
+    assert points[19, 39, :2] == pytest.approx([10.0 - 250.0 + 12.5, 20.0 - 500.0 + 12.5])
     ranges = pixel_rays.ranges(view(perspective), 1, planar)
-    expected = np.linalg.norm(found - view(True).position[0], axis=-1) if perspective else planar
+    expected = np.linalg.norm(points - view(True).position[0], axis=-1) if perspective else planar
     np.testing.assert_allclose(ranges[1:], expected[1:], rtol=1e-6)
     assert np.all(ranges[0] == np.float32(1e10))
 
@@ -186,13 +186,13 @@ def test_the_thermal_scale_follows_the_moment_alone(make_run, monkeypatch):
     monkeypatch.setattr(air_temperature.sun, "position", lambda run, time: (180.0, 40.0))
     night = np.full((3, 4, 5), 285.0, np.float32)
     run = runs.open(make_run(temperature=night + np.array([0.0, 10.0, 20.0], np.float32)[:, None, None]))
-    made = Shot(Settings(time=Time(frames=3)), run)
-    assert [thermal_pass.scale(made, frame) for frame in (1, 2, 3)] == [
+    moving = Shot(Settings(time=Time(frames=3)), run)
+    assert [thermal_pass.scale(moving, frame) for frame in (1, 2, 3)] == [
         (285.0, 800.0),
         (295.0, 800.0),
         (305.0, 800.0),
     ]
-    still = Shot(Settings(time=Time(frames=1, start=made.utc(3))), run)
+    still = Shot(Settings(time=Time(frames=1, start=moving.utc(3))), run)
     assert thermal_pass.scale(still, 1) == (305.0, 800.0)
     held = Shot(Settings(time=Time(frames=3), render=Render(thermal_low=280.0)), run)
     assert {thermal_pass.scale(held, frame) for frame in (1, 2, 3)} == {(280.0, 800.0)}

@@ -31,14 +31,14 @@ def test_offsets_of_chunks_find_their_data_after_a_rewrite(added, wide, first, t
     path = tmp_path_factory.mktemp("film") / "film.mp4"
     path.write_bytes(data + movie(place) if first else movie(place) + data)
     mp4_boxes.rewrite(path, lambda body: mp4_boxes.make(b"udta", added) + body, b"more")
-    made = path.read_bytes()
+    rewritten = path.read_bytes()
     with path.open("rb") as film:
         _, start, end = next(
-            part for part in mp4_boxes.of_file(film, len(made) - len(b"more")) if part[0] == b"moov"
+            part for part in mp4_boxes.of_file(film, len(rewritten) - len(b"more")) if part[0] == b"moov"
         )
-    body = made[start + 8 : end]
+    body = rewritten[start + 8 : end]
     assert mp4_boxes.find(body, b"udta") == added
     found = mp4_boxes.find(body, b"trak", b"mdia", b"minf", b"stbl", kind)
     (offset,) = struct.unpack_from(f">{letter}", found, 8)
-    assert made[offset : offset + 5] == b"frame"
-    assert made.endswith(b"more")
+    assert rewritten[offset : offset + 5] == b"frame"
+    assert rewritten.endswith(b"more")

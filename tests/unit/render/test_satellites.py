@@ -90,17 +90,17 @@ def seen(run, name):
 def test_a_pixel_shows_the_radiance_mean_of_fire_and_ground(burning):
     """Dozier: 1000 K over 0.37 % of 300 K is 400 K at 3.9 um and 306.5 K at 11.2 um."""
     run = burning(5.0e3)
-    found = seen(run, "abi")
-    hot = np.unravel_index(found.short.argmax(), found.short.shape)
-    part = imager.RADIATED * found.heat / (constants.STEFAN_BOLTZMANN * 1000.0**4) / found.area[hot]
+    image = seen(run, "abi")
+    hot = np.unravel_index(image.short.argmax(), image.short.shape)
+    part = imager.RADIATED * image.heat / (constants.STEFAN_BOLTZMANN * 1000.0**4) / image.area[hot]
     assert 0.001 < part < 0.02
-    for wave, shown, most in zip((3.9, 11.2), (found.short, found.long), imager.ABI.saturation, strict=True):
+    for wave, shown, most in zip((3.9, 11.2), (image.short, image.long), imager.ABI.saturation, strict=True):
         fire, ground = sensor.spectral_radiance([1000.0, 300.0], wave)
         mixed = sensor.spectral_temperature(part * fire + (1.0 - part) * ground, wave)
         expected = min(float(mixed), most)
         assert shown[hot] == pytest.approx(expected, abs=1e-3)
         assert np.sort(shown.ravel())[-2] == pytest.approx(300.0, abs=1e-3)
-    assert (found.mask > 0).sum() == 1
+    assert (image.mask > 0).sum() == 1
 
 
 def test_the_power_of_all_pixels_is_a_sixth_of_the_heat_where_none_is_saturated(burning):
@@ -186,13 +186,13 @@ def test_a_geotiff_lies_where_its_pixels_are(burning, tmp_path):
     rasterio = pytest.importorskip("rasterio")
     pyproj = pytest.importorskip("pyproj")
     for name in ("abi", "viirs"):
-        found, path = seen(burning(), name), tmp_path / f"{name}.tif"
-        geotiff.write(path, found, imager.INSTRUMENTS[name], "Test", datetime(2014, 9, 17, tzinfo=UTC))
+        image, path = seen(burning(), name), tmp_path / f"{name}.tif"
+        geotiff.write(path, image, imager.INSTRUMENTS[name], "Test", datetime(2014, 9, 17, tzinfo=UTC))
         with rasterio.open(path) as read:
             assert read.count == 4
             assert "hypothetical" in read.tags()["note"]
             assert ("M13" in read.tags()["power_from"]) == (name == "viirs")
-            np.testing.assert_allclose(read.read(1), found.short, rtol=1e-6)
+            np.testing.assert_allclose(read.read(1), image.short, rtol=1e-6)
             if name == "abi":
                 projection = read.crs.to_dict()
                 assert [projection[key] for key in ("proj", "lon_0", "h")] == ["geos", -137, ORBIT]
@@ -201,8 +201,8 @@ def test_a_geotiff_lies_where_its_pixels_are(burning, tmp_path):
             x, y = read.xy(2, 3)  # the middle of a pixel
             back = pyproj.Transformer.from_crs(read.crs.to_wkt(), "EPSG:4326", always_xy=True)
             longitude, latitude = back.transform(x, y)
-        row, column = found.grid.forward(latitude, longitude)
-        assert (row, column) == pytest.approx((found.row + 2.5, found.column + 3.5), abs=1e-3)
+        row, column = image.grid.forward(latitude, longitude)
+        assert (row, column) == pytest.approx((image.row + 2.5, image.column + 3.5), abs=1e-3)
         assert [path.name for path in tmp_path.glob("*.xml")] == []
 
 
@@ -224,28 +224,28 @@ def test_a_pass_shows_the_imagers_pixels_where_they_lie_in_a_cameras_picture(
     camera = Camera("satellite", Satellite(swath=30_000.0, geostationary=longitude))
     settings = Settings(time=Time(frames=1), cameras=(camera,), render=Render(resolution=(120, 120)))
     shot = Shot(settings, burning(2.0e3))
-    found, (path,) = seen(shot.run, name), shot.paths
+    image, (path,) = seen(shot.run, name), shot.paths
     depth = {"depth": {"exr": tmp_path / "depth.exr"}}
     away = path.meet if longitude else path.position[0, 2]
     sensor.write_image(depth["depth"]["exr"], np.full((120, 120), away, np.float32))
-    made = {}
+    rendered = {}
     for band in ("short", "long"):
         png = tmp_path / f"{band}.png"
         passes.finish(f"imager_{band}", {"png": png}, depth, shot, "satellite", 1)
-        made[band] = sensor.read_image(png)[..., :3]
-    hot = np.unravel_index(found.short.argmax(), found.short.shape)
-    place = found.grid.reverse(found.row + hot[0] + 0.5, found.column + hot[1] + 0.5)
+        rendered[band] = sensor.read_image(png)[..., :3]
+    hot = np.unravel_index(image.short.argmax(), image.short.shape)
+    place = image.grid.reverse(image.row + hot[0] + 0.5, image.column + hot[1] + 0.5)
     there = shot.local_frame.forward(*(np.atleast_1d(each) for each in place), np.zeros(1))[0]
     local = path.rotation[0].T @ (there - path.position[0])
     scale = 1.0 if not path.perspective else -1.0 / local[2]
     x, y = (120 * (0.5 + 0.5 * np.array([1, -1]) * local[:2] * scale / path.half)).astype(int)
-    bands = zip(made, (found.short, found.long), imager.INSTRUMENTS[name].saturation, strict=True)
+    bands = zip(rendered, (image.short, image.long), imager.INSTRUMENTS[name].saturation, strict=True)
     for band, kelvin, most in bands:
         expected = sensor.colour([[kelvin[hot]]], shot.air.coldest, most, "inferno", 20.0)[0, 0]
-        assert made[band][y, x] == pytest.approx(expected, abs=0.01)
-        assert made[band][119, 60] == pytest.approx(3 * [0.12], abs=0.01)  # beyond the run's domain
-    assert made["short"][y, x].sum() > made["short"][y, x - 25].sum() + 0.5
-    assert (made["short"][2:20, 2:60] > 0.99).any()  # a label
+        assert rendered[band][y, x] == pytest.approx(expected, abs=0.01)
+        assert rendered[band][119, 60] == pytest.approx(3 * [0.12], abs=0.01)  # beyond the run's domain
+    assert rendered["short"][y, x].sum() > rendered["short"][y, x - 25].sum() + 0.5
+    assert (rendered["short"][2:20, 2:60] > 0.99).any()  # a label
 
 
 def test_pictures_of_years_before_an_imager_say_so():

@@ -205,8 +205,8 @@ store.export()
 
 def test_the_manifest_is_written_when_there_is_something_new(finished):
     out, picture, made_with = finished
-    with Store(out) as made:
-        made.export()
+    with Store(out) as opened:
+        opened.export()
         told = json.loads((out / manifest.NAME).read_text())
         key = content.fingerprint(made_with["drone", "rgb"])
         assert told["settings"] == {key: made_with["drone", "rgb"]}
@@ -214,10 +214,10 @@ def test_the_manifest_is_written_when_there_is_something_new(finished):
         first = picture.files()[0]
         assert told["files"][first] == store.describe(out / first) | {"settings": key}
         before = (out / manifest.NAME).stat()
-        made.export()
+        opened.export()
         assert (out / manifest.NAME).stat().st_ino == before.st_ino
-        made.add({"samples": 7}, {picture.files()[0]: {"bytes": 0}})
-        made.export()
+        opened.add({"samples": 7}, {picture.files()[0]: {"bytes": 0}})
+        opened.export()
         assert len(json.loads((out / manifest.NAME).read_text())["settings"]) == 2
 
 

@@ -29,15 +29,15 @@ def arrival(shape, speed, parts):
 def burning(shape, speed, averaged, frames=None, decay=DECAY):
     """Fluxes (nt, cells, cells) of a front (cells per step) that burns out."""
     fine = arrival(shape, speed, FINE)
-    found = []
+    frames_of_flux = []
     for time in np.arange(frames or int(30 / speed) + 4) * STEP:
         age = np.maximum(time - fine, 0)
         if averaged:
             frame = (np.exp(-np.maximum(age - STEP, 0) / decay) - np.exp(-age / decay)) * decay / STEP
         else:
             frame = np.where(time >= fine, np.exp(-age / decay), 0)
-        found.append(frame.reshape(CELLS, FINE, CELLS, FINE).mean(axis=(1, 3)) * 5e4)
-    return np.array(found, np.float32)
+        frames_of_flux.append(frame.reshape(CELLS, FINE, CELLS, FINE).mean(axis=(1, 3)) * 5e4)
+    return np.array(frames_of_flux, np.float32)
 
 
 def run_of(make_run, frames, toml=RUN_TOML, parts=1, load=0.0):
@@ -87,14 +87,14 @@ def test_the_front_is_a_line_as_fine_as_the_fuel_until_the_run_ends(make_run, sh
     frames = burning(shape, speed, True, frames=max(int(12 / speed), 4))
     end = (len(frames) - 1) * STEP
     run = run_of(make_run, frames, parts=4)
-    found, truth = run.fuel_arrival_time(), arrival(shape, speed, 4)
-    assert np.nanmax(found) <= end
+    arrivals, truth = run.fuel_arrival_time(), arrival(shape, speed, 4)
+    assert np.nanmax(arrivals) <= end
     for time in (end - STEP / 2, end):
-        off = np.where((found <= time) != (truth <= time), np.abs(truth - time) * speed / STEP, 0)
+        off = np.where((arrivals <= time) != (truth <= time), np.abs(truth - time) * speed / STEP, 0)
         assert off.max() < 1.0 + 0.3 * speed  # cells
         front = CELLS * 4 * 1.2
         assert np.count_nonzero(off) / front / 4 < 0.25 + 0.1 * speed
-        assert (found <= time).sum() == pytest.approx((truth <= time).sum(), rel=0.08 + 0.05 * speed)
+        assert (arrivals <= time).sum() == pytest.approx((truth <= time).sum(), rel=0.08 + 0.05 * speed)
 
 
 def test_cells_at_the_edge_of_a_fire_that_stopped_burn_in_part(make_run):
@@ -116,13 +116,13 @@ def test_the_front_goes_on_evenly_until_the_last_moment(make_run, speed):
     """In each part of the last interval it gains as much ground as is true, and none at once at its end."""
     frames = burning(line, speed, True, frames=int(20 / speed), decay=STEP)
     end = (len(frames) - 1) * STEP
-    found = run_of(make_run, frames, parts=4).fuel_arrival_time()
+    arrivals = run_of(make_run, frames, parts=4).fuel_arrival_time()
     truth = arrival(line, speed, 4)
     front = np.count_nonzero(np.diff(truth <= end, axis=0)) / 4 / 0.6 * 0.8  # cells
     for time in end - STEP * np.array([0.0, 1e-6, 0.3, 0.6, 1.0]):
-        ahead = ((found <= time).sum() - (truth <= time).sum()) / 16 / front
+        ahead = ((arrivals <= time).sum() - (truth <= time).sum()) / 16 / front
         assert abs(ahead) < 0.3, time  # cells
-    assert not (found > end - 1e-3).any()
+    assert not (arrivals > end - 1e-3).any()
 
 
 def test_light_fuel_burns_beside_heavy_fuel(make_run):

@@ -104,12 +104,12 @@ CREATE TABLE p (fid INTEGER PRIMARY KEY, geom BLOB, date_time TEXT, FeatureCateg
 @pytest.mark.parametrize("make", [geojson, kmz, shapefiles, geopackage])
 def test_an_infrared_flight_is_read_by_its_classes(tmp_path, make):
     """Its perimeter alone is one; heat has its class; where it flew and clouds are neither."""
-    found = observations.read(make(tmp_path))
-    (perimeter,) = found.perimeters
+    flight = observations.read(make(tmp_path))
+    (perimeter,) = flight.perimeters
     assert len(perimeter.polygons) == 1
-    kinds = {each.kind: each for each in found.heat}
+    kinds = {each.kind: each for each in flight.heat}
     assert set(kinds) == set(infrared_detections.KINDS)
-    moments = {perimeter.time, *(each.time for each in found.heat)}
+    moments = {perimeter.time, *(each.time for each in flight.heat)}
     assert moments == {datetime(2014, 9, 18, 6, 30, tzinfo=UTC)}
     for kind in ("intense", "scattered"):
         ((ring,),) = kinds[kind].polygons
@@ -117,7 +117,7 @@ def test_an_infrared_flight_is_read_by_its_classes(tmp_path, make):
         assert not len(kinds[kind].points)
     np.testing.assert_array_equal(kinds["isolated"].points, [spot for _, spot in SPOTS[:2]])
     np.testing.assert_array_equal(kinds["possible"].points, [SPOTS[2][1]])
-    assert any("2 features that are neither perimeter nor heat" in each for each in found.assumptions)
+    assert any("2 features that are neither perimeter nor heat" in each for each in flight.assumptions)
 
 
 @pytest.mark.parametrize(

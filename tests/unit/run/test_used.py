@@ -80,17 +80,17 @@ def test_each_file_says_what_became_of_its_observations(fire, tmp_path):
         ([circle(900.0, 9e4)], {"time": "2014-09-17T05:06:00Z"}),
     )
     run, seen = readers.open(fire()), observations.read([csv, shape])
-    found = scores.score(run, seen)
-    assert found["uses"] == [
+    scored = scores.score(run, seen)
+    assert scored["uses"] == [
         {"source": "king.geojson", "kind": "perimeters", "used": 1, "before": 1, "after": 0, "outside": 1},
         {"source": "viirs.csv", "kind": "detections", "used": 2, "before": 1, "after": 2, "outside": 2},
     ]
-    assert len(found["dates"]) == 1
-    assert sum(row["count"] for row in found["detections"]) == 2
-    told = [line.split() for line in page.page(found).splitlines()]
+    assert len(scored["dates"]) == 1
+    assert sum(row["count"] for row in scored["detections"]) == 2
+    told = [line.split() for line in page.page(scored).splitlines()]
     assert ["viirs.csv,", "detections", "2", "1", "2", "2"] in told
     cells = "".join(f"<td>{count}</td>" for count in (2, 1, 2, 2))
-    assert f'<td>viirs.csv</td><td class="text">detections</td>{cells}' in report.html(run, found, seen)
+    assert f'<td>viirs.csv</td><td class="text">detections</td>{cells}' in report.html(run, scored, seen)
 
 
 @pytest.mark.parametrize(

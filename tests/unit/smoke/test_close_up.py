@@ -44,10 +44,10 @@ def test_far_fires_told_voxels_and_frames_that_are_not_filmed_need_none(shot, fr
 
 @given(PLACES, PLACES)
 def test_its_share_is_whole_in_the_middle_and_none_outside(x, y):
-    found = close_up.window(shot(), 1, VOXEL)
-    share = float(found.share(np.float64(x), np.float64(y)))
-    inside = all(a <= at <= b for a, at, b in zip(found.low, (x, y), found.high, strict=True))
+    window = close_up.window(shot(), 1, VOXEL)
+    share = float(window.share(np.float64(x), np.float64(y)))
+    inside = all(a <= at <= b for a, at, b in zip(window.low, (x, y), window.high, strict=True))
     assert 0.0 <= share <= 1.0
     assert (share > 0.0) <= inside
-    middle = 0.5 * (np.array(found.low) + np.array(found.high))
-    assert float(found.share(*middle)) == 1.0
+    middle = 0.5 * (np.array(window.low) + np.array(window.high))
+    assert float(window.share(*middle)) == 1.0

@@ -46,19 +46,19 @@ def smoke(scale=1.0):
 
 def test_smoke_is_read_in_place_and_time(tmp_path):
     files = [grib_files.write(tmp_path / f"f{hour}.grib2", smoke(1.0 + hour), hour) for hour in (0, 1)]
-    found = smoke_forecast.read(Run, files[::-1])
-    assert [each.valid for each in found] == [grib_files.valid(0), grib_files.valid(1)]
+    forecasts = smoke_forecast.read(Run, files[::-1])
+    assert [each.valid for each in forecasts] == [grib_files.valid(0), grib_files.valid(1)]
     latitude, longitude = np.meshgrid(Run.latitude, Run.longitude, indexing="ij")
-    np.testing.assert_allclose(found[0].density, 80.0 * plane(5e-6, 2e-6)(latitude, longitude), rtol=1e-5)
-    np.testing.assert_allclose(found[0].column, 2.0 * found[0].density, rtol=1e-5)
-    assert found[0].height == pytest.approx(2000.0)
-    half = smoke_forecast.at(found, grib_files.valid(0.5))
-    np.testing.assert_allclose(half.density, 1.5 * found[0].density)
+    np.testing.assert_allclose(forecasts[0].density, 80.0 * plane(5e-6, 2e-6)(latitude, longitude), rtol=1e-5)
+    np.testing.assert_allclose(forecasts[0].column, 2.0 * forecasts[0].density, rtol=1e-5)
+    assert forecasts[0].height == pytest.approx(2000.0)
+    half = smoke_forecast.at(forecasts, grib_files.valid(0.5))
+    np.testing.assert_allclose(half.density, 1.5 * forecasts[0].density)
     with pytest.raises(
         InputError, match="no smoke is valid at this time; the files have 2014-09-17T00:00:00Z"
     ):
-        smoke_forecast.at(found, grib_files.valid(2))
-    text = smoke_forecast.page(found, half, "UTC")
+        smoke_forecast.at(forecasts, grib_files.valid(2))
+    text = smoke_forecast.page(forecasts, half, "UTC")
     assert text.endswith("mean of the run\nsmoke = 120.0\nsmoke_height = 2000.0")
     assert "80.0 (" in text
     assert f"{3.912 / (80e-9 * 4000) / 1e3:.3g}" in text  # visual range: 12.2 km

@@ -33,15 +33,15 @@ def test_a_time_lapse_covers_the_interval_on_either_side():
 
 @given(st.integers(1, 20), LENGTHS)
 def test_an_exposure_is_centred_and_within_the_film(frame, length):
-    found = shutter.sub_frames(frame, length, 20)
+    moments = shutter.sub_frames(frame, length, 20)
     each = shutter.parts(length)
     middle, last = (frame - 1) * each + 1, 19 * each + 1
-    assert sum(weight for weight, _ in found) == pytest.approx(1.0)
-    assert middle in [number for _, number in found]
-    assert all(1 <= number <= last for _, number in found)
+    assert sum(weight for weight, _ in moments) == pytest.approx(1.0)
+    assert middle in [number for _, number in moments]
+    assert all(1 <= number <= last for _, number in moments)
     reach = 0.5 * length * each
     if middle - reach >= 1 and middle + reach <= last:
-        assert sum(weight * number for weight, number in found) == pytest.approx(middle)
+        assert sum(weight * number for weight, number in moments) == pytest.approx(middle)
 
 
 @given(LENGTHS)

@@ -137,14 +137,14 @@ def test_the_light_of_flames_falls_off_in_the_smoke_above_them():
     detail = flow.Detail(**moment(glow=np.ones((N, N, N))))
     plane = np.ones((48, 48))
     smoke = detail.paint_sparse((0.0, 0.0, 0.0), VOXEL, 0.0 * plane, plane, 40, min_extinction=THIN)
-    found = []
+    grids = []
     for part in (0.0, 0.5):
         smoke.dim_glow(part)
-        found.append(volume.LitSmoke(smoke, SLANTED, *PARTS).grids(plane, THIN))
-    density = found[0]["density"]
+        grids.append(volume.LitSmoke(smoke, SLANTED, *PARTS).grids(plane, THIN))
+    density = grids[0]["density"]
     below = VOXEL * (np.cumsum(density, axis=2) - 0.5 * density)
-    there = (density > 0.0) & (found[0]["glow"] > 0.5)
-    kept = -np.log(found[1]["glow"][there] / found[0]["glow"][there])
+    there = (density > 0.0) & (grids[0]["glow"] > 0.5)
+    kept = -np.log(grids[1]["glow"][there] / grids[0]["glow"][there])
     assert kept.max() > 1.0
     for low, high in ((0.5, 1.0), (2.0, 3.0)):
         deep = (below[there] > low) & (below[there] < high)

@@ -117,12 +117,12 @@ def test_the_fire_is_known_for_as_long_as_smoke_is_shown(shot):
 
 def test_a_source_that_a_run_brings_is_added_by_one_file(shot, soot):
     soot('fields = ("temperature",)')
-    made = shot(method="flow")
-    assert sources.select(made).name == "soot"
-    place = bake.bake(made)
+    sooty = shot(method="flow")
+    assert sources.select(sooty).name == "soot"
+    place = bake.bake(sooty)
     assert [path.name for path in place.glob("*.vdb")] == ["smoke_000001.vdb"]
-    assert sources.select(made).cost() is None
-    assert not sources.is_integrated(made)
-    plan.check_marched(made, [Picture("drone", 1, "rgb")])
+    assert sources.select(sooty).cost() is None
+    assert not sources.is_integrated(sooty)
+    plan.check_marched(sooty, [Picture("drone", 1, "rgb")])
     with pytest.raises(Error, match="leave comp out of the passes"):
-        plan.check_marched(made, [Picture("drone", 1, "comp")])
+        plan.check_marched(sooty, [Picture("drone", 1, "comp")])

@@ -59,13 +59,13 @@ def test_several_fields_are_what_openvdb_writes(tmp_path, half, shape):
     fields = {name: np.ascontiguousarray(field[:, : shape[1], : shape[2]]) for name, field in fields.items()}
     frame = volume.write(ours, fields, 1.0, half=half)
     as_openvdb_writes(theirs, fields, half)
-    found, expected = read(ours), read(theirs)
-    assert set(found) == set(fields)
+    fields_read, expected = read(ours), read(theirs)
+    assert set(fields_read) == set(fields)
     for name in fields:
         mine, other = openvdb.read(str(ours), name), openvdb.read(str(theirs), name)
         for property in ("activeVoxelCount", "leafCount", "evalActiveVoxelBoundingBox"):
             assert getattr(mine, property)() == getattr(other, property)()
-        np.testing.assert_array_equal(found[name][0], expected[name][0])
+        np.testing.assert_array_equal(fields_read[name][0], expected[name][0])
     assert frame.voxels == sum(int(np.count_nonzero(field)) for field in fields.values())
     assert frame.mass == pytest.approx(fields["density"].sum(dtype=np.float64), rel=1e-12)
 

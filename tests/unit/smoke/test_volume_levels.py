@@ -267,22 +267,22 @@ def test_a_run_reads_fields_on_levels(tmp_path):
     smoke = rng.random(LEVELS).astype(np.float32)
     smoke[0, 1, 2, 3] = -9999.0
     height = np.sort(rng.random(LEVELS[1:]), axis=0).astype(np.float32)
-    found = opening.open(with_levels(tmp_path / "run", smoke_3d=smoke, height_3d=height))
-    assert found.has("smoke_3d")
-    assert not found.has("temperature_3d")
+    opened = opening.open(with_levels(tmp_path / "run", smoke_3d=smoke, height_3d=height))
+    assert opened.has("smoke_3d")
+    assert not opened.has("temperature_3d")
     smoke[0, 1, 2, 3] = np.nan
     for index in range(NT):
-        np.testing.assert_array_equal(found.smoke_3d(index), smoke[index])
-        np.testing.assert_array_equal(found.height_3d(index), height)
-    np.testing.assert_allclose(found.smoke_3d_at(75.0), 0.75 * smoke[1] + 0.25 * smoke[2], atol=1e-7)
-    np.testing.assert_array_equal(found.smoke_3d_at(120.0), smoke[2])
-    np.testing.assert_array_equal(found.height_3d_at(75.0), height)
+        np.testing.assert_array_equal(opened.smoke_3d(index), smoke[index])
+        np.testing.assert_array_equal(opened.height_3d(index), height)
+    np.testing.assert_allclose(opened.smoke_3d_at(75.0), 0.75 * smoke[1] + 0.25 * smoke[2], atol=1e-7)
+    np.testing.assert_array_equal(opened.smoke_3d_at(120.0), smoke[2])
+    np.testing.assert_array_equal(opened.height_3d_at(75.0), height)
     with pytest.raises(IndexError):
-        found.smoke_3d(NT)
+        opened.smoke_3d(NT)
     with pytest.raises(ValueError, match="outside"):
-        found.smoke_3d_at(121.0)
+        opened.smoke_3d_at(121.0)
     with pytest.raises(Error, match="no temperature_3d"):
-        found.temperature_3d(0)
+        opened.temperature_3d(0)
 
 
 @pytest.mark.parametrize(
