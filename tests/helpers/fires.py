@@ -23,6 +23,21 @@ def round_fire(latitude, longitude, speed=0.5, east=0.0, north=0.0):
     return np.hypot(*np.meshgrid(x, y)) / speed
 
 
+def write_run(make_run, arrival, cells=120, cell=50.0, coarse=24, count=9, interval=600.0, **fields):
+    """Write a run without air on `cells` x `cells` of a size (m), with arrival times (s) or None."""
+    latitude, longitude = axes(cells, cell)
+    rows, columns = axes(coarse, 250.0)
+    fuel, flux = np.ones((cells, cells), np.float32), np.zeros((count, coarse, coarse), np.float32)
+    known = {
+        **{"latitude": rows, "longitude": columns, "fuel_latitude": latitude, "fuel_longitude": longitude},
+        **{"elevation": flux[0], "surface_fuel": fuel, "canopy_fuel": fuel, "heat_flux": flux},
+        **dict.fromkeys(("temperature", "wind_east", "wind_north")),
+        "fuel_arrival_time": None if arrival is None else arrival.astype(np.float32),
+    }
+    toml = f'start = 2014-09-17T04:45:00Z\ninterval_s = {interval}\nvertical = "orthometric"\n'
+    return make_run(toml='name = "Round"\n' + toml, **(known | fields))
+
+
 def circle(radius, east=0.0, north=0.0, corners=360):
     """Ring (n, 2) in degrees of a circle in metres about the place."""
     turn = np.linspace(0, 2 * np.pi, corners, endpoint=False)

@@ -3,7 +3,22 @@
 import contextlib
 import http.server
 import threading
+import time
 import urllib.parse
+
+from firetwin.tiles.sources import backoff
+
+
+class Clock(backoff.Clock):
+    """A clock that does not wait; it remembers how long it should have."""
+
+    def __init__(self):
+        self.time, self.slept = time.time(), []
+        super().__init__(now=lambda: self.time, sleep=self._sleep, jitter=lambda: 1.0)
+
+    def _sleep(self, seconds):
+        self.slept.append(seconds)
+        self.time += seconds
 
 
 class Reply:

@@ -1,6 +1,8 @@
 """Test files in the exact structure of each fire model: a front that moves east at a constant speed."""
 
+import tomllib
 from datetime import datetime, timedelta
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -269,3 +271,8 @@ def cf(path, *, name="hfx", times=(0, 60), units="seconds since 2020-07-01 18:00
         variable[:] = np.where(flux > 9e4, -1, flux / 10).astype(np.int16)
         raw = variable[:]
     return path, np.where(raw == -1, np.nan, raw * 10.0 + 5.0)
+
+
+def said(run):
+    """Assumptions that a converted run names, as one text."""
+    return " ".join(tomllib.loads((Path(run.path) / "run.toml").read_text())["source"]["assumptions"])

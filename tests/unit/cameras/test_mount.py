@@ -90,17 +90,6 @@ def test_nothing_follows_what_follows_and_nothing_is_mounted_on_a_satellite():
     assert Mounted("sat").followed(cameras) is None
 
 
-def test_a_mounted_sensor_is_made_again_when_its_mount_moves():
-    two = Camera("two", Mounted("drone"))
-
-    def made_with(drone):
-        return fingerprint.collect_inputs(Settings(cameras=(drone, two)), {}, "two", "rgb")
-
-    moved = replace(DRONE, rig=replace(DRONE.rig, bank=0.0))
-    assert made_with(DRONE) == made_with(DRONE)
-    assert made_with(DRONE) != made_with(moved)
-
-
 def test_classes_and_numbers_survive_smoke_exactly():
     rng = np.random.default_rng(0)
     kind, number = rng.integers(0, 6, (40, 50)), rng.integers(0, 10_000_000, (40, 50))

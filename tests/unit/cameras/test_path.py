@@ -12,11 +12,3 @@ def test_a_mean_by_fft_is_the_sum_under_the_window(reach):
     window = np.hanning(2 * reach + 3)[1:-1]
     expected = sliding_window_view(values, 2 * reach + 1) @ (window / window.sum())
     np.testing.assert_allclose(path.hann_mean(values, reach), expected, rtol=0, atol=1e-8)
-
-
-@pytest.mark.parametrize("width", [1, 2, 3, 8, 13])
-def test_a_moving_maximum_is_the_maximum_of_each_window(width):
-    values = np.random.default_rng(width).normal(size=40)
-    np.testing.assert_array_equal(
-        path._moving_maximum(values, width), sliding_window_view(values, width).max(1)
-    )

@@ -123,17 +123,6 @@ def test_a_minimap_is_made_again_when_the_camera_it_follows_moves(run):
     assert first != made_with(Camera("scout", Drone(keys=(KEYS[0], moved))), over)
 
 
-@pytest.mark.parametrize("follows", ["scuot", "map"])
-def test_a_minimap_that_follows_nobody_is_an_error(tmp_path, follows):
-    scene = tmp_path / "scene.toml"
-    scene.write_text(
-        '[[cameras]]\nname = "scout"\n[[cameras.keys]]\nat = 0.0\n'
-        f'[[cameras]]\nkind = "minimap"\nname = "map"\nfollows = "{follows}"\n'
-    )
-    with pytest.raises(InputError, match=r"scene.toml:8:1: camera \"map\" follows \"\w+\", and no other"):
-        scene_file.read(scene)
-
-
 def test_a_geostationary_satellite_is_over_the_equator_and_sees_rows_of_parallels(run):
     shot = shot_of(run, Camera("goes", Satellite(swath=4000.0, geostationary=-137.0)))
     (view,) = shot.paths

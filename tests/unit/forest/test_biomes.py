@@ -1,6 +1,5 @@
 """Biomes: choice by land, changes by settings, and completeness."""
 
-from dataclasses import replace
 from datetime import date
 
 import numpy as np
@@ -161,12 +160,6 @@ def test_grass_without_a_fire_is_as_green_as_the_date(make_run):
 def test_grass_beside_a_forest_fire_is_half_dry(make_run):
     shot = april(make_run, canopy_fuel=filled(1.0))
     assert biomes.choose(shot).green == pytest.approx(0.4)
-
-
-def test_greenness_in_the_scene_file_outweighs_the_fire(make_run):
-    shot = april(make_run)
-    green = Shot(replace(shot.settings, forest=Forest(biome="grassland", greenness=0.9)), shot.run)
-    assert biomes.choose(green).green == 0.9
 
 
 def test_planted_trees_stand_in_rows_and_are_of_one_height_in_a_compartment(shot):

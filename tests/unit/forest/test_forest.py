@@ -107,19 +107,6 @@ def test_the_same_forest_on_any_number_of_threads(all_threads):
             np.testing.assert_array_equal(getattr(g, name), getattr(results[0][1], name))
 
 
-def test_a_changed_cell_changes_only_its_own_tree():
-    grid = fuel_grid(20, 20)
-    before = trees(grid, max_fuel=5.0)
-    changed = 7 * 20 + 3
-    grid["canopy"].flat[changed] = 2.5
-    after = trees(grid, max_fuel=5.0)
-    for name in ("cell", "position", "scale", "rotation", "model", "size_class"):
-        np.testing.assert_array_equal(
-            getattr(before, name)[before.cell != changed], getattr(after, name)[after.cell != changed]
-        )
-    assert after.size_class[after.cell == changed] == forest.LARGE
-
-
 def one_tree(fuel, **options):
     grid = fuel_grid(2, 2)
     grid["canopy"] = np.array([[fuel, 0], [0, 0]], "f4")
@@ -144,34 +131,6 @@ def one_tree(fuel, **options):
 )
 def test_classes_at_their_limits(fuel, size):
     assert one_tree(fuel, max_fuel=3.0).size_class.tolist() == ([] if size is None else [size])
-
-
-def test_sizes_and_models_fill_their_ranges():
-    grid = fuel_grid(300, 300)
-    for fuel, low, high, models in ((0.5, 0.7, 1.0, 4), (1.0, 0.9, 1.2, 4), (2.0, 1.1, 1.4, 2)):
-        grid["canopy"][:] = fuel
-        result = trees(grid, max_fuel=2.0)
-        lerp = 6 + 12 * fuel / 2
-        assert result.scale.min() >= lerp * low * 0.8 * (1 - 1e-6)
-        assert result.scale.max() <= lerp * high * 1.2 * (1 + 1e-6)
-        assert result.scale.max() - result.scale.min() > 0.95 * lerp * (high * 1.2 - low * 0.8)
-        counts = np.bincount(result.model, minlength=models)
-        assert len(counts) == models
-        np.testing.assert_allclose(counts, 90_000 / models, rtol=0.05)
-        assert 0 <= result.rotation.min() < 0.01
-        assert 6.27 < result.rotation.max() <= np.float32(2 * np.pi)
-
-
-def test_trees_stand_inside_their_cells():
-    grid = fuel_grid(30, 40)
-    grid["elevation"][:] = 1000
-    grid["canopy"][:] = 1
-    result = trees(grid)
-    latitude, longitude, height = FRAME.reverse(result.position)
-    y, x = np.divmod(result.cell, 40)
-    assert np.abs(latitude - grid["latitude"][y]).max() <= 0.000667 / 2
-    assert np.abs(longitude - grid["longitude"][x]).max() <= 0.000855 / 2
-    np.testing.assert_allclose(height, 1000, atol=1e-6)
 
 
 def test_without_jitter_trees_stand_in_the_middle():
@@ -244,13 +203,3 @@ def test_a_mask_leaves_out_cells_and_changes_no_other_plant(seed, share, blocks)
 def test_a_mask_has_the_shape_of_the_fuel():
     with pytest.raises(ValueError, match=r"mask must have shape \(3, 3\)"):
         trees(fuel_grid(3, 3), mask=np.ones((3, 2), bool))
-
-
-@settings(deadline=None, max_examples=examples(30))
-@given(st.integers(0, 2**64 - 1))
-def test_grass_stands_where_its_tree_stands(seed):
-    grid = fuel_grid(5, 5)
-    grid["canopy"][:] = 1
-    grid["surface"][:] = 1
-    lower = trees(grid, seed=seed).position - grass(grid, seed=seed).position
-    np.testing.assert_allclose(lower, np.tile([0, 0, 0.70], (25, 1)), atol=1e-9)

@@ -25,12 +25,3 @@ def test_the_same_plants(kind):
     np.testing.assert_allclose(ours.position, theirs.position, rtol=0, atol=1e-6)
     for name in ("scale", "rotation") + (("size_class", "model") if kind == "trees" else ()):
         np.testing.assert_allclose(getattr(ours, name), getattr(theirs, name), rtol=1e-6, err_msg=name)
-
-
-@pytest.mark.parametrize("kind", ["trees", "grass"])
-def test_as_many_plants_from_one_stream(kind):
-    field = grid()
-    ours = getattr(forest, kind)(*field, LocalFrame(*ORIGIN))
-    theirs = getattr(rival, kind)(*field, ORIGIN, draw=rival.one_stream)
-    np.testing.assert_array_equal(ours.cell, theirs.cell)
-    assert np.abs(ours.position - theirs.position)[:, :2].max() < 110

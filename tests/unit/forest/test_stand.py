@@ -204,12 +204,6 @@ def test_many_are_small_and_few_large_and_heights_follow_from_diameters():
     assert np.corrcoef(trees.rotation, trees.model)[0, 1] == pytest.approx(0.0, abs=0.05)
 
 
-def test_more_fuel_is_more_and_taller_trees():
-    few, many = stand(site(8, 8, 0.2)), stand(site(8, 8, 2.0))
-    assert len(many) > 2 * len(few)
-    assert many.scale.mean() > 1.2 * few.scale.mean()
-
-
 @pytest.mark.parametrize("turned", [False, True])
 def test_trees_stand_in_their_cells_on_the_ground(turned):
     field = site(7, 6)

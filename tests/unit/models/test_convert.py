@@ -268,14 +268,6 @@ def test_nothing_foreign_is_parsed_where_a_run_is_opened(tmp_path, monkeypatch):
         readers.open(tmp_path)
 
 
-def test_a_task_without_blender(monkeypatch):
-    """It ends in one line and says nothing of Blender."""
-    monkeypatch.setattr(sys, "stdout", io.StringIO())
-    with pytest.raises(Error) as caught:
-        worker.run(convert.in_process, blender=False)
-    assert "Blender" not in str(caught.value)
-
-
 def test_what_is_no_models_output_is_told_apart(tmp_path):
     """One line each, with the fault; a damaged file of a model is not reported as another kind."""
     arrival = np.hypot(*np.mgrid[-8:9, -8:9])

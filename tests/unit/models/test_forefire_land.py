@@ -1,6 +1,5 @@
 """ForeFire's landscape on a map: heights without steps, and wind."""
 
-import tomllib
 from pathlib import Path
 
 import model_files as made
@@ -8,14 +7,11 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.run.models import fuels
+from model_files import said
 
 SIDE, BOX = 1000.0, "9.0,42.0,9.02,42.02"
 FUEL = np.ones((1, 1, 4, 4), np.int16)
 ARRIVAL = np.hypot(*np.mgrid[-50:50, -60:60]) * 10.0  # cells of 8.33 m by 10 m
-
-
-def said(run):
-    return " ".join(tomllib.loads((Path(run.path) / "run.toml").read_text())["source"]["assumptions"])
 
 
 @pytest.fixture

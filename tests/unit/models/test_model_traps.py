@@ -1,55 +1,16 @@
-"""Traps of fire models' files that no other test file has: each test fails without its cure.
+"""Traps of fire models' files that no other test file has: each test fails without its cure."""
 
-======================================================  =====================================================
-CFBM: time in the name only, with colons                test_models::test_cfbm, ..._without_a_time_in_its_name
-CFBM: (ny, nx), south first, no attributes              test_models::test_cfbm
-CFBM: 32-bit longitudes, 0.65 m coarse                  here: test_coarse_longitudes_turn_no_wind
-CFBM: turned grid, wind along its axes                  test_models::test_cfbm_turned_wind
-CFBM: last rows and columns are real                    test_models::test_cfbm
-CFBM: flux is a mean of the last step                   here: test_of_what_fluxes_are_means
-CFBM: fluxes of 1e-38 W/m2 are not fire                 here: test_a_trace_of_heat_is_no_fire
-CFBM: flux of the first file was never set              test_models::test_cfbm
-CFBM: level function level before ignition, no arrival  test_models::test_cfbm
-CFBM: fuel 14 is none, as a decimal number              here: test_fuel_14_is_none
-Sphere of 6370 km                                       here: test_degrees_on_a_sphere_stay_as_they_are
-WRF: junk edge, TIGN_G where unburned                   test_models::test_wrf_sfire
-WRF: metres in an ideal run                             test_models::test_wrf_sfire_in_metres
-WRF: several times in several files                     test_models::test_wrf_sfire
-WRF: TIGN_G of a touch, cells that burn in part         test_models::..._burns_what_its_own_fire_area_says
-WRF: staggered winds and heights, T is theta - 300      test_models::test_wrf_sfire_in_three_dimensions
-WRF: FIRE_AREA without flux in the first time           here: test_what_burned_before_the_first_time
-ForeFire: -9999, negative, cells that are not square    test_models::test_forefire
-ForeFire: time of day, absurd degrees of fronts         test_models::test_forefire_fronts_place_and_date_it
-ForeFire: a touched cell counts, polygons with z        test_models::test_forefire_itself
-ForeFire: landscape of 4 dimensions, BBoxWSEN           here: test_a_landscape_larger_than_the_map
-ForeFire: .ff fronts, JSON with units                   here: test_a_landscape_larger_than_the_map
-ForeFire: KML rings are not closed                      here: test_a_ring_that_is_not_closed
-ForeFire: holes are rings after the first               here: test_fronts_have_holes
-ELMFIRE: units by file, -9999, rows from the north      test_models::test_elmfire
-ELMFIRE: BIL                                            here: test_bil
-FARSITE: minutes                                        test_models::test_heat_is_that_of_the_fuel_burned
-LCP: pixel by pixel                                     test_models::test_an_lcp_is_what_gdal_reads
-LCP: units by code                                      here: test_units_of_a_landscape
-firebench: faults of an oracle                          test_score
-======================================================  =====================================================
-"""
-
-import json
 import tomllib
 from pathlib import Path
 
 import model_files as made
 import numpy as np
 import pytest
-from firetwin.run import maps, observations
+from firetwin.run import maps
 from firetwin.run import opening as runs
 from firetwin.run.models import fuels, raster
 from matplotlib.collections import QuadMesh
-
-
-def said(run):
-    return " ".join(tomllib.loads((Path(run.path) / "run.toml").read_text())["source"]["assumptions"])
-
+from model_files import said
 
 # ---- CFBM and WRF-SFIRE
 
@@ -90,14 +51,6 @@ def test_fuel_14_is_none(tmp_path, converted):
     np.testing.assert_array_equal(load, np.where(truth["x"] < 150, np.float32(fuels.SFIRE[2]), 0))
 
 
-@pytest.mark.parametrize("model", ["cfbm", "wrf"])
-def test_degrees_on_a_sphere_stay_as_they_are(tmp_path, converted, model):
-    paths, truth = getattr(made, model)(tmp_path)
-    run = converted(paths)
-    assert "sphere of 6370 km are used as WGS84 coordinates" in said(run)
-    np.testing.assert_allclose(run.fuel_latitude, truth["lat"][:, 0], atol=2e-5)
-
-
 def test_what_burned_before_the_first_time(tmp_path, converted):
     """FIRE_AREA is above 0 there, and the flux is 0: burned by then, without heat."""
     paths, truth = made.wrf(tmp_path, times=(60, 120), without=("TIGN_G", "LFN"))
@@ -136,34 +89,6 @@ def test_a_landscape_larger_than_the_map(tmp_path, converted):
     np.testing.assert_array_equal(load[[0, 0, -1, -1], [0, -1, 0, -1]], np.float32([0.4, 0.9, 0.9, 0.4]))
     np.testing.assert_allclose(run.elevation[[0, -1], 0], [360.0, 700.0])  # between middles of cells
     assert "b.json: the model's own JSON" in said(run)
-
-
-def test_a_ring_that_is_not_closed(tmp_path):
-    corners = ["8.1,41.1,0", "8.2,41.1,0", "8.2,41.2,0", "8.1,41.2,0"]
-    rings = []
-    for name, points in (("open", corners), ("closed", [*corners, corners[0]])):
-        path = tmp_path / f"{name}.kml"
-        path.write_text(
-            "<kml><Placemark><Polygon><outerBoundaryIs><LinearRing><coordinates>"
-            f"{' '.join(points)}</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></kml>"
-        )
-        (perimeter,) = observations.read([f"{path}@2020-07-18T12:00Z"]).perimeters
-        rings.append(perimeter.polygons[0][0])
-    np.testing.assert_array_equal(rings[0], rings[1])
-    assert rings[0].shape == (4, 2)
-
-
-def test_fronts_have_holes(tmp_path):
-    """`numberOfPolygons` counts rings; heights are 0."""
-    outer, hole = ([[8 + s * x, 41 + s * y, 0] for x, y in ((0, 0), (3, 0), (3, 3))] for s in (1.0, 0.1))
-    path = tmp_path / "front.geojson"
-    front = {"type": "Feature", "properties": {"numberOfPolygons": 2}}
-    front["geometry"] = {"type": "MultiPolygon", "coordinates": [[outer, hole]]}
-    whole = {"type": "FeatureCollection", "valid_at": "2020-07-18T14:00:00Z", "features": [front]}
-    path.write_text(json.dumps(whole))
-    (perimeter,) = observations.read([path]).perimeters
-    assert perimeter.time.isoformat() == "2020-07-18T14:00:00+00:00"
-    assert [len(ring) for ring in perimeter.polygons[0]] == [3, 3]
 
 
 def test_the_ground_burns_where_the_model_says(tmp_path, converted):

@@ -10,7 +10,6 @@ from firetwin.errors import InputError
 from firetwin.run.observations import geopackage
 from firetwin.stations import reading
 from small_stations import write
-from station_files import write_usgs
 
 BOMB = "hex(zeroblob(20000000))"
 
@@ -106,8 +105,3 @@ def test_files_cannot_be_attached_or_changed(make):
         for command in ("ATTACH ':memory:' AS b", "DELETE FROM t"):
             with pytest.raises(sqlite3.Error):
                 base._base.execute(command)
-
-
-def test_a_feature_table_of_another_program_is_read_as_before(tmp_path):
-    path = write_usgs(tmp_path / "u.gpkg")
-    assert [each.place for each in geopackage.read(path)] == [f"row {k} of Struct_Point" for k in (1, 2, 3)]

@@ -55,16 +55,6 @@ def test_agrees_with_cart_convert(points):
     np.testing.assert_allclose(LocalFrame(*ORIGIN).forward(*points), expected, rtol=0, atol=NANOMETRES)
 
 
-def test_grid_equals_scattered_points():
-    latitude, longitude = np.linspace(38.6, 39.2, 40), np.linspace(-120.9, -120.2, 30)
-    height = np.random.default_rng(4).uniform(200, 3000, (40, 30))
-    frame = LocalFrame(*ORIGIN)
-    scattered = frame.forward(np.repeat(latitude, 30), np.tile(longitude, 40), height.ravel())
-    np.testing.assert_allclose(
-        frame.forward_grid(latitude, longitude, height).reshape(-1, 3), scattered, rtol=0, atol=NANOMETRES
-    )
-
-
 @settings(deadline=None)
 @given(
     st.floats(-90, 90),

@@ -1,10 +1,10 @@
 """Infrared flights' maps: their classes as NIFC's layers name them, from every format."""
 
 import json
-import struct
 import zipfile
 from datetime import UTC, datetime
 
+import geopackage_file
 import numpy as np
 import pytest
 from fires import closed, square
@@ -77,28 +77,11 @@ def shapefiles(folder):
 
 def geopackage(folder):
     """A layer of areas and one of points."""
-    import sqlite3
-
-    path, head, ring = folder / "ir.gpkg", b"GP\0\1" + struct.pack("<i", 4326), closed(RING)
-    area = head + struct.pack("<BIII", 1, 3, 1, len(ring)) + np.array(ring).tobytes()
-    with sqlite3.connect(path) as base:
-        base.executescript(
-            """CREATE TABLE gpkg_spatial_ref_sys (srs_name, srs_id INTEGER, organization,
-organization_coordsys_id INTEGER, definition, description);
-INSERT INTO gpkg_spatial_ref_sys VALUES ('', 4326, 'EPSG', 4326, '', '');
-CREATE TABLE gpkg_geometry_columns (table_name, column_name, geometry_type_name, srs_id, z, m);
-INSERT INTO gpkg_geometry_columns VALUES ('a', 'geom', 'POLYGON', 4326, 0, 0);
-INSERT INTO gpkg_geometry_columns VALUES ('p', 'geom', 'POINT', 4326, 0, 0);
-CREATE TABLE a (fid INTEGER PRIMARY KEY, geom BLOB, date_time TEXT, FeatureCategory TEXT);
-CREATE TABLE p (fid INTEGER PRIMARY KEY, geom BLOB, date_time TEXT, FeatureCategory TEXT);"""
-        )
-        for name in AREAS:
-            base.execute("INSERT INTO a VALUES (NULL, ?, ?, ?)", (area, FLOWN, name))
-        for name, spot in SPOTS:
-            blob = head + struct.pack("<BI", 1, 1) + np.array(spot).tobytes()
-            base.execute("INSERT INTO p VALUES (NULL, ?, ?, ?)", (blob, FLOWN, name))
-    base.close()
-    return [path]
+    area = geopackage_file.polygon(closed(RING))
+    areas = [(area, FLOWN, name) for name in AREAS]
+    points = [(geopackage_file.point(*spot), FLOWN, name) for name, spot in SPOTS]
+    columns = ["date_time", "FeatureCategory"]
+    return [geopackage_file.write(folder / "ir.gpkg", columns, areas=areas, points=points)]
 
 
 @pytest.mark.parametrize("make", [geojson, kmz, shapefiles, geopackage])

@@ -41,8 +41,3 @@ def test_a_run_of_a_model_with_all_inputs(make_run):
         "Stations, resources or lines are invented for an exercise.",
     ):
         assert sentence in text
-
-
-def test_a_run_without_a_model_says_so(make_run):
-    run = readers.open(make_run(toml=RUN_TOML.replace("synthetic = true\n", "")))
-    assert "The fire model of the run Small is not named." in methods.paragraph(run, Inputs())

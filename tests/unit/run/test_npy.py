@@ -83,13 +83,6 @@ def test_headers_that_lie(grid_of, content, reason):
         grid_of(content)
 
 
-def test_a_pickle_is_never_loaded(tmp_path):
-    path = tmp_path / "grid.npy"
-    np.save(path, np.array([{"a": 1}], dtype=object), allow_pickle=True)
-    with pytest.raises(core.InputError, match="never loaded"):
-        read_grid(path)
-
-
 def test_doubles_too_large_for_a_float(grid_of, tmp_path):
     for value, ok in ((3.4028235e38, True), (3.4028236e38, False), (np.inf, True), (np.nan, True)):
         np.save(tmp_path / "wide.npy", np.array([[0.0, value]]))

@@ -1,11 +1,10 @@
 """Perimeters and detections from every kind of file, their dates, and messages on bad files."""
 
 import io
-import sqlite3
-import struct
 import zipfile
 from datetime import UTC, datetime, timedelta, timezone
 
+import geopackage_file
 import numpy as np
 import pytest
 from fires import circle, closed, geojson, square
@@ -54,23 +53,8 @@ def shapefile(path, system="EPSG:32610"):
 
 
 def geopackage(path):
-    rings = [closed(RING), closed(HOLE)]
-    binary = struct.pack("<BII", 1, 3, 2) + b"".join(
-        struct.pack("<I", len(ring)) + np.array(ring).tobytes() for ring in rings
-    )
-    with sqlite3.connect(path) as base:
-        base.executescript(
-            """CREATE TABLE gpkg_spatial_ref_sys (srs_name, srs_id INTEGER, organization,
-organization_coordsys_id INTEGER, definition, description);
-INSERT INTO gpkg_spatial_ref_sys VALUES ('', 4326, 'EPSG', 4326, '', '');
-CREATE TABLE gpkg_geometry_columns (table_name, column_name, geometry_type_name, srs_id, z, m);
-INSERT INTO gpkg_geometry_columns VALUES ('king', 'geom', 'POLYGON', 4326, 0, 0);
-CREATE TABLE king (fid INTEGER PRIMARY KEY, geom BLOB, date_time TEXT)"""
-        )
-        blob = b"GP\0\1" + struct.pack("<i", 4326) + binary
-        base.execute("INSERT INTO king VALUES (1, ?, '2014-09-18T11:00:00Z')", (blob,))
-    base.close()
-    return path
+    shape = geopackage_file.polygon(closed(RING), closed(HOLE))
+    return geopackage_file.write(path, ["date_time"], king=[(shape, "2014-09-18T11:00:00Z")])
 
 
 MAKERS = {

@@ -22,13 +22,6 @@ def test_all_frames_in_order(run, field, ahead):
     np.testing.assert_array_equal(frames, small_fields()[field])
 
 
-def test_many_frames(make_run):
-    flux = np.random.default_rng(0).random((500, 4, 5)).astype(np.float32)
-    run = runs.open(make_run(heat_flux=flux, temperature=None, wind_east=None, wind_north=None))
-    for ahead in (1, 4):
-        np.testing.assert_array_equal(list(run.frames(ahead=ahead)), flux)
-
-
 def test_chosen_frames(run):
     flux = small_fields()["heat_flux"]
     np.testing.assert_array_equal(list(run.frames(indices=[2, 0, 2, 1], ahead=2)), flux[[2, 0, 2, 1]])

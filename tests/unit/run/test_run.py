@@ -16,15 +16,8 @@ def form(request):
 def test_every_field_comes_back(make_run, form):
     run = runs.open(make_run(form))
     fields = small_fields()
-    for name in [
-        "latitude",
-        "longitude",
-        "elevation",
-        "fuel_latitude",
-        "fuel_longitude",
-        "surface_fuel",
-        "canopy_fuel",
-    ]:
+    axes = "latitude", "longitude", "fuel_latitude", "fuel_longitude"
+    for name in (*axes, "elevation", "surface_fuel", "canopy_fuel"):
         np.testing.assert_array_equal(getattr(run, name), fields[name], err_msg=name)
     for i in range(3):
         np.testing.assert_array_equal(run.heat_flux(i), fields["heat_flux"][i])
@@ -97,17 +90,11 @@ def test_one_cell(make_run):
     one = np.ones((1, 1), np.float32)
     run = runs.open(
         make_run(
-            latitude=np.array([38.9]),
-            longitude=np.array([-120.6]),
-            elevation=one,
-            fuel_latitude=np.array([38.9]),
-            fuel_longitude=np.array([-120.6]),
-            surface_fuel=one,
-            canopy_fuel=one,
+            **dict.fromkeys(("latitude", "fuel_latitude"), np.array([38.9])),
+            **dict.fromkeys(("longitude", "fuel_longitude"), np.array([-120.6])),
+            **dict.fromkeys(("elevation", "surface_fuel", "canopy_fuel"), one),
+            **dict.fromkeys(("temperature", "wind_east", "wind_north")),
             heat_flux=one[None],
-            temperature=None,
-            wind_east=None,
-            wind_north=None,
         )
     )
     assert run.heat_flux(0).shape == (1, 1)
@@ -126,30 +113,8 @@ def test_flux_range_is_of_the_whole_run_and_skips_what_is_not_finite(make_run, f
 def test_flux_range_of_nothing(make_run):
     run = runs.open(make_run(heat_flux=np.full((3, 4, 5), np.nan, np.float32)))
     assert run.flux_range() == (0.0, 0.0)
-    assert any("nothing burns" in text for text in run.warnings)
-
-
-def test_arrival_time(make_run, form):
-    """One cell begins in the first interval, the other in the second."""
-    run = runs.open(make_run(form))
-    found = run.arrival_time()
-    assert np.argwhere(np.isfinite(found)).tolist() == [[1, 2], [2, 2]]
-    assert 0 < found[1, 2] <= 60 < found[2, 2] <= 120
-    assert run.flux_range() == (0.0, 2000.25)
-
-
-def test_fuel_arrival_time_is_the_runs_own(make_run):
-    own = np.random.default_rng(8).normal(0, 100, (8, 10)).astype(np.float32)
-    np.testing.assert_array_equal(runs.open(make_run(fuel_arrival_time=own)).fuel_arrival_time(), own)
-
-
-def test_fuel_arrival_time_is_between_those_of_the_cells(make_run):
-    run = runs.open(make_run())
-    found, cells = run.fuel_arrival_time(), run.arrival_time()
-    assert found.shape == (8, 10)
-    assert cells[1, 2] < found[3, 4] < cells[2, 2]
-    assert 1 < np.isfinite(found).sum() <= 8
-    assert np.isnan(found[0, 0])
+    assert np.isnan(run.arrival_time()).all()
+    assert "heat_flux has no finite value at any time, so nothing burns by it" in run.warnings
 
 
 def test_fuel_elevation(make_run):

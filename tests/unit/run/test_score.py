@@ -7,13 +7,12 @@ import json
 import subprocess
 import sys
 from datetime import UTC, datetime, timedelta
-from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
 import pytest
 import whole_run
-from fires import LATITUDE, LONGITUDE, axes, circle, degrees, geojson, round_fire, square
+from fires import LATITUDE, LONGITUDE, axes, circle, degrees, geojson, round_fire, square, write_run
 from firetwin.errors import UsageError
 from firetwin.html_text import quote
 from firetwin.run import observations, readers
@@ -29,6 +28,7 @@ from hypothesis_profiles import examples
 from matplotlib import image
 from matplotlib.colors import to_rgb
 from module_file import load_module
+from page_parts import PageParts
 
 shapely = pytest.importorskip("shapely")
 SPEED = 0.5  # m/s
@@ -38,34 +38,9 @@ START = datetime(2014, 9, 17, 4, 45, tzinfo=UTC)
 @pytest.fixture
 def round_run(make_run):
     """A run of 6 km and 2 hours whose fire grows as a circle; burned before: 300 m."""
-    latitude, longitude = axes()
-    coarse_latitude, coarse_longitude = axes(24, 250.0)
-    flux = np.zeros((9, 24, 24), np.float32)
-    nothing = np.zeros((24, 24), np.float32)
-    air = np.zeros_like(flux)
-    fuel = np.ones((120, 120), np.float32)
-    time = round_fire(latitude, longitude, SPEED) - 300.0 / SPEED
+    time = round_fire(*axes(), SPEED) - 300.0 / SPEED
     time[time > 3600.0] = np.nan
-
-    def make(**fields):
-        defaults = {
-            "latitude": coarse_latitude,
-            "longitude": coarse_longitude,
-            "fuel_latitude": latitude,
-            "fuel_longitude": longitude,
-            "elevation": nothing,
-            "surface_fuel": fuel,
-            "canopy_fuel": fuel,
-            "heat_flux": flux,
-            "temperature": air + 300,
-            "wind_east": air,
-            "wind_north": air,
-            "fuel_arrival_time": time.astype(np.float32),
-        }
-        toml = 'name = "Round"\nstart = 2014-09-17T04:45:00Z\ninterval_s = 600.0\nvertical = "orthometric"\n'
-        return readers.open(make_run(toml=toml, **(defaults | fields)))
-
-    return make
+    return lambda **fields: readers.open(write_run(make_run, time, **fields))
 
 
 def seen(time, *rings):
@@ -339,30 +314,6 @@ def test_names_in_the_report_do_not_turn_its_text():
     assert quote("a\u202egpj.<b>") == "a\\u202egpj.&lt;b&gt;"
 
 
-class _Page(HTMLParser):
-    """Tags that open and close, pictures, and requests to elsewhere."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.open, self.pictures, self.elsewhere, self.drawn = [], [], [], 0
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        known = dict(attributes)
-        if tag not in ("meta", "img", "br", "path", "use", "i"):
-            self.open.append(tag)
-        self.drawn += tag == "svg"
-        self.pictures += [known["src"]] if tag == "img" else []
-        links = (known.get(name) or "" for name in ("src", "href", "xlink:href", "data"))
-        self.elsewhere += [
-            each for each in links if each and each[:1] != "#" and not each.startswith("data:")
-        ]
-
-    def handle_endtag(self, tag):
-        if self.open and tag == self.open[-1]:
-            self.open.pop()
-
-
 @pytest.mark.parametrize("against", ["perimeters", "run"])
 def test_the_report_is_one_page_with_its_pictures_inside(round_run, against):
     run = round_run()
@@ -373,16 +324,23 @@ def test_the_report_is_one_page_with_its_pictures_inside(round_run, against):
     seen_too = observations.Observations(circles if against == "perimeters" else ())
     others = [] if against == "perimeters" else [run]
     text = report.html(run, scores.score(run, seen_too, *others), seen_too, *others)
-    page = _Page(text)
-    assert page.elsewhere == []
+    parts = PageParts(text)
+    links = [
+        value
+        for _, attributes, _ in parts.elements
+        for name, value in attributes.items()
+        if name in ("src", "href", "xlink:href", "data")
+    ]
+    assert all(each.startswith(("#", "data:")) for each in links if each)
     assert f'<meta http-equiv="Content-Security-Policy" content="{report.POLICY}">' in text
-    assert page.drawn == 1
-    assert len(page.pictures) == (2 if against == "perimeters" else scores.SAMPLES)
-    for picture in page.pictures:
+    assert len(parts.all("svg")) == 1
+    pictures = [attributes["src"] for attributes, _ in parts.all("img")]
+    assert len(pictures) == (2 if against == "perimeters" else scores.SAMPLES)
+    for picture in pictures:
         head, data = picture.split(",")
         assert head == "data:image/png;base64"
         assert base64.b64decode(data).startswith(b"\x89PNG")
-    assert "main" not in page.open
+    assert not parts.open
     assert "synthetic" not in text
 
 

@@ -5,7 +5,7 @@ from datetime import UTC, datetime, timedelta
 
 import numpy as np
 import pytest
-from fires import axes, circle, degrees, geojson, round_fire
+from fires import axes, circle, degrees, geojson, round_fire, write_run
 from firetwin import cli
 from firetwin.run import observations, readers
 from firetwin.run import score as scores
@@ -22,25 +22,8 @@ def fire(make_run):
     """A run of 6 km that begins at 04:45 UTC, with so many times, and grows as a circle for an hour."""
 
     def make(count=5, interval=900.0, arrival=True):
-        latitude, longitude = axes(60, 100.0)
-        coarse_latitude, coarse_longitude = axes(24, 250.0)
-        zero, fuel = np.zeros((count, 24, 24), np.float32), np.ones((60, 60), np.float32)
-        toml = f'start = 2014-09-17T04:45:00Z\ninterval_s = {interval}\nvertical = "orthometric"\n'
-        return make_run(
-            toml='name = "Round"\n' + toml,
-            latitude=coarse_latitude,
-            longitude=coarse_longitude,
-            fuel_latitude=latitude,
-            fuel_longitude=longitude,
-            elevation=zero[0],
-            surface_fuel=fuel,
-            canopy_fuel=fuel,
-            heat_flux=zero,
-            temperature=None,
-            wind_east=zero,
-            wind_north=zero,
-            fuel_arrival_time=round_fire(latitude, longitude).astype(np.float32) if arrival else None,
-        )
+        time = round_fire(*axes(60, 100.0)) if arrival else None
+        return write_run(make_run, time, 60, 100.0, count=count, interval=interval)
 
     return make
 

@@ -318,45 +318,20 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     folder = tmp_path_factory.getbasetemp()
     path = folder / "scene.toml"
     path.write_text(scene_file.text(whole), encoding="utf-8")
-    back = scene_file.read(path)
-    terrain = dataclasses.replace(
-        back.terrain, **moved(back.terrain, folder, "elevation", "photo", "land_use", "buildings", "globe")
-    )
-    labels = dataclasses.replace(back.labels, **moved(back.labels, folder, "file"))
-    fire = dataclasses.replace(back.fire, **moved(back.fire, folder, "observed"))
-    forecast = dataclasses.replace(back.forecast, **moved(back.forecast, folder, "ensemble"))
-    stations = dataclasses.replace(
-        back.stations, **moved(back.stations, folder, "file", "footprints", "routes_file")
-    )
-    cameras = tuple(
-        dataclasses.replace(
-            camera, rig=dataclasses.replace(camera.rig, **moved(camera.rig, folder, "track", "places"))
+    assert moved(scene_file.read(path), folder) == whole
+
+
+def moved(value, folder):
+    """A value whose paths are as if its file were in /scenes."""
+    if isinstance(value, Path):
+        return Path("/scenes") / value.relative_to(folder) if value.is_relative_to(folder) else value
+    if isinstance(value, tuple):
+        return tuple(moved(each, folder) for each in value)
+    if dataclasses.is_dataclass(value):
+        return replace(
+            value, **{f.name: moved(getattr(value, f.name), folder) for f in dataclasses.fields(value)}
         )
-        for camera in back.cameras
-    )
-    runs = tuple(dataclasses.replace(run, **moved(run, folder, "path")) for run in back.runs)
-    back = dataclasses.replace(
-        back,
-        path=whole.path,
-        runs=runs,
-        terrain=terrain,
-        labels=labels,
-        forecast=forecast,
-        stations=stations,
-        fire=fire,
-        cameras=cameras,
-        **moved(back, folder, "run", "cache"),
-    )
-    assert back == whole
-
-
-def moved(table, folder, *names):
-    """Paths of a table as if its file were in /scenes."""
-    paths = {name: path for name in names if (path := getattr(table, name, None)) is not None}
-    return {
-        name: Path("/scenes") / path.relative_to(folder) if path.is_relative_to(folder) else path
-        for name, path in paths.items()
-    }
+    return value
 
 
 # Parts of reading.
@@ -386,9 +361,6 @@ def test_lists_of_frames():
     assert FrameList("").frames(3) == [1, 2, 3]
     assert FrameList(" 3, 5-6,1-9:4 ").frames(9) == [1, 3, 5, 6, 9]
     assert FrameList.of([1, 2, 3, 7, 9, 10]) == "1-3,7,9-10"
-    for text in ("0", "4-2", "1-4:0", "x", "1,", "5", "9" * 5000):
-        with pytest.raises(ValueError, match=r"frame"):
-            FrameList(text).frames(4)
 
 
 @pytest.mark.parametrize(
@@ -398,6 +370,7 @@ def test_lists_of_frames():
         ("9-1:4", ["ascending order: 1-9:4"]),
         ("1-4:0", ["step of 0", "1-4:1"]),
         ("11-20", ['"11-20" is outside of 1-12']),
+        *((text, []) for text in ("0", "x", "1,", "13", "9" * 5000)),
     ],
 )
 def test_lists_of_frames_that_cannot_be_say_what_to_write(text, words):
@@ -420,13 +393,7 @@ def test_former_names_of_sections_are_read_and_noted(tmp_path):
         "2:2: [ground] is called [terrain] now; the old name is read in this version only",
         "5:2: [places] is called [labels] now; the old name is read in this version only",
     ]
-    path.write_text("[tiles]\nerror = 3.0\n")
-    settings = scene_file.read(path)
     now = "max_screen_space_error"
-    assert getattr(settings.tiles, now) == 3.0
-    assert settings.notes == (
-        f"{path}:2:1: tiles.error is called tiles.{now} now; the old name is read in this version only",
-    )
     path.write_text(f"[tiles]\nerror = 3.0\n{now} = 3.0\n")
     with pytest.raises(InputError, match=rf":3:1: tiles\.error is the former name of tiles\.{now}"):
         scene_file.read(path)
@@ -460,14 +427,6 @@ def test_a_removed_key_is_noted_at_its_default_and_an_error_otherwise(tmp_path, 
     gone = rf":2:1: {section}\.{key} was removed: .*; delete the line"
     with pytest.raises(InputError, match=gone):
         scene_file.read(path)
-
-
-def test_puffs_are_read_as_the_preview(tmp_path):
-    path = tmp_path / "scene.toml"
-    path.write_text('[smoke]\nmethod = "puffs"\n')
-    found = scene_file.read(path)
-    assert found.smoke.method == "preview"
-    assert '2:1: smoke.method = "puffs" is called "preview" now' in found.notes[0]
 
 
 FORMER_TEXT = """[ground]

@@ -14,7 +14,7 @@ from firetwin.shot.sections import LabelSettings, StationSettings
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
 from firetwin.shot.stations import labels, station_signs
-from firetwin.stations import describe, fire_arrival, measures, reading
+from firetwin.stations import describe, fire_arrival
 from firetwin.stations.records import EXERCISE, Station
 
 ROWS = [
@@ -75,17 +75,6 @@ def test_what_an_exercise_adds_to_a_fact_is_an_exercise(shot_of, tmp_path):
         fact = station_signs.make_signs(shot_of(invented, show=show))[0]
         assert fact.origin == origin
         assert (EXERCISE in fact.lines) == (origin == "exercise")
-
-
-def test_air_goes_straight_and_the_ground_by_roads(tmp_path):
-    to = (39.0 + 10.0 / 111.02, -120.5)  # 10 km to the north
-    rows = [(k, f"Station {k}", 39.0, -120.5, "", "fact") for k in range(1, 5)]
-    known = [("engine/3", 60.0, 3.0), ("helicopter/1", 60.0, 3.0), ("engine/3", None, 3.0)]
-    sent = [(1, *known[0]), (2, *known[0]), (2, *known[1]), (3, *known[2])]
-    resources = [(station, type_, 1, speed, minutes, "fact") for station, type_, speed, minutes in sent]
-    found = reading.read(small_stations.write(tmp_path / "stations.gpkg", rows, resources))
-    least = measures.shortest_minutes(found, to)
-    np.testing.assert_allclose(least, [3.0 + 14.0, 3.0 + 10.0, np.nan, np.nan], atol=0.05)
 
 
 def test_a_sign_sums_up_resources_and_has_a_short_name(shot_of):

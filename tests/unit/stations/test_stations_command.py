@@ -2,7 +2,6 @@
 
 import json
 import re
-from datetime import timedelta
 
 import numpy as np
 import pytest
@@ -10,11 +9,9 @@ from firetwin import cli
 from firetwin.commands import _fire
 from firetwin.run import opening as runs
 from firetwin.run import times
-from firetwin.stations import fire_arrival, page, reading, search, station_search, writing
-from firetwin.stations.arguments import _length, parse_types
-from firetwin.stations.query import Query
+from firetwin.stations import reading, writing
 from firetwin.stations.records import EXERCISE
-from random_stations import CENTRE, NOON, random_stations
+from random_stations import random_stations
 from small_run import RUN_TOML, small_fields
 from station_files import write_hifld
 
@@ -232,34 +229,6 @@ def test_a_file_without_any_station_is_not_written(tmp_path, capsys):
     assert status == 1
     assert "has no valid station" in said
     assert not (tmp_path / "p.gpkg").exists()
-
-
-def test_stations_by_distance():
-    station_file = random_stations(5)
-    found = station_search.survey(station_file, Query(near=CENTRE, within_km=50.0))
-    distances = [each.distance_km for each in found.matches]
-    assert distances == sorted(distances)
-    assert len(distances) + sum(found.left_out.values()) == len(station_file.stations)
-    assert max(distances) <= 50.0
-    assert [each.distance_km for each in station_search.survey(station_file, Query()).matches] == [None] * 6
-
-
-def test_an_answer_without_a_run_is_not_ahead_of_anything(tmp_path):
-    station_file = random_stations(5, gaps=0.0)
-    writing.write(station_file, tmp_path / "p.gpkg")
-    read = reading.read(tmp_path / "p.gpkg")
-    answer = page.SearchAnswer(read, Query(near=CENTRE), search.survey(read, Query(near=CENTRE)))
-    assert answer.ahead(1.0) is answer
-    assert "fire" not in answer.as_json()["matches"][0]
-    assert page.facts(read)["windows"]["begins"] >= times.iso(NOON - timedelta(hours=6))
-    assert len(fire_arrival.STATES) == 4
-
-
-def test_words_of_options():
-    assert _length("60km") == 60.0
-    assert _length("40 mi") == pytest.approx(64.37, abs=0.01)
-    assert _length("500m") == 0.5
-    assert parse_types("1-3,VLAT") == ("1", "2", "3", "vlat")
 
 
 def test_the_former_names_of_the_command_and_of_an_option_are_read_with_a_note(tmp_path, capsys):

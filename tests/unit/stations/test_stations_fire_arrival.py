@@ -24,6 +24,7 @@ def test_at_the_centres_of_cells_the_times_are_the_runs_own(burning):
     run, y, x, _ = burning
     arrivals = fire_arrival.sample(run, y.ravel(), x.ravel())
     own = run.fuel_arrival_time().ravel()
+    assert fire_arrival.first_burned_point(run) == pytest.approx((y[0, 0], x[0, 0]))
     np.testing.assert_allclose(arrivals.time, own, rtol=1e-6)
     for bound in (arrivals.earliest, arrivals.latest):
         np.testing.assert_allclose(bound[np.isfinite(own)], own[np.isfinite(own)], atol=0.01)
@@ -93,11 +94,6 @@ def test_times_from_fluxes_are_an_interval_less_certain(make_run):
     assert found.time[0] == pytest.approx(own[row, column])
     assert found.earliest[0] <= own[row, column] - 60.0
     assert found.latest[0] >= own[row, column] + 60.0
-
-
-def test_the_first_cells_and_a_run_without_fire(burning, make_run):
-    run, y, x, _ = burning
-    assert fire_arrival.first_burned_point(run) == pytest.approx((y[0, 0], x[0, 0]))
 
 
 def test_a_run_without_fire_reaches_nothing(make_run):

@@ -2,6 +2,7 @@
 
 import sqlite3
 import struct
+from contextlib import closing
 from dataclasses import replace
 
 import numpy as np
@@ -49,11 +50,19 @@ def test_what_is_written_is_read(file):
 
 
 def query(path, command, *values):
-    base = sqlite3.connect(path)
-    try:
+    with closing(sqlite3.connect(path)) as base:
         return base.execute(command, values).fetchall()
-    finally:
-        base.close()
+
+
+def edit(path, *commands):
+    """Change a file as a program does that knows neither triggers nor constraints: (SQL, values)."""
+    with closing(sqlite3.connect(path)) as base:
+        for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
+            base.execute(f"DROP TRIGGER {name}")
+        base.execute("PRAGMA ignore_check_constraints = ON")
+        for command, values in commands:
+            base.execute(command, values)
+        base.commit()
 
 
 def test_it_is_a_geopackage_by_the_standard(file):
@@ -186,13 +195,7 @@ def test_a_row_without_a_true_origin_cannot_be_written(tmp_path):
 )
 def test_what_another_program_broke_is_named(file, command, reason):
     path, _ = file
-    base = sqlite3.connect(path)
-    for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
-        base.execute(f"DROP TRIGGER {name}")
-    base.execute("PRAGMA ignore_check_constraints = ON")
-    base.execute(command)
-    base.commit()
-    base.close()
+    edit(path, (command, ()))
     with pytest.raises(InputError) as caught:
         reading.read(path)
     assert reason in str(caught.value)
@@ -202,12 +205,7 @@ def test_what_another_program_broke_is_named(file, command, reason):
 def test_geometries_in_one_another_are_refused_from_a_depth(file):
     path, _ = file
     nested = struct.pack("<BII", 1, 7, 1) * 50_000 + struct.pack("<BIdd", 1, 1, -120.5, 39.0)
-    base = sqlite3.connect(path)
-    for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
-        base.execute(f"DROP TRIGGER {name}")
-    base.execute("UPDATE station SET geom = ?", (b"GP\0\1" + struct.pack("<i", 4326) + nested,))
-    base.commit()
-    base.close()
+    edit(path, ("UPDATE station SET geom = ?", (b"GP\0\1" + struct.pack("<i", 4326) + nested,)))
     with pytest.raises(InputError, match="has no position in degrees"):
         reading.read(path)
 
@@ -222,26 +220,19 @@ def test_points_as_other_programs_write_them_are_read(file):
         + b"\x01"
         + struct.pack("<Iddd", 1001, -120.5, 38.5, 9)
     )
-    base = sqlite3.connect(path)
-    for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
-        base.execute(f"DROP TRIGGER {name}")
     for blob, wanted in ((big, (38.75, -120.25)), (boxed, (38.5, -120.5))):
-        base.execute("UPDATE station SET geom = ? WHERE fid = ?", (blob, number))
-        base.commit()
+        edit(path, ("UPDATE station SET geom = ? WHERE fid = ?", (blob, number)))
         station = reading.read(path).stations[0]
         assert (station.latitude, station.longitude) == wanted
-    base.close()
 
 
 def test_texts_of_any_kind_are_texts(file):
     path, _ = file
-    base = sqlite3.connect(path)
-    for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
-        base.execute(f"DROP TRIGGER {name}")
-    base.execute("UPDATE station SET name = 12, agency = x'41' WHERE fid = 7")
-    base.execute("UPDATE resource SET note = x'41'")
-    base.commit()
-    base.close()
+    edit(
+        path,
+        ("UPDATE station SET name = 12, agency = x'41' WHERE fid = 7", ()),
+        ("UPDATE resource SET note = x'41'", ()),
+    )
     found = reading.read(path)
     assert found.stations[0].name == "12"
     assert {each.note for each in found.resources} == {"b'A'"}

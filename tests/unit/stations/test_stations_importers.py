@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 from firetwin.errors import InputError
 from firetwin.stations import import_rows, importers, merging, names, reading, writing
-from firetwin.stations.importers import firetwin, hifld, osm, resources_csv, stations_csv, tables, usgs
+from firetwin.stations.importers import firetwin, hifld, osm, resources_csv, stations_csv, usgs
 from firetwin.stations.records import Source, Station
 from firetwin.stations.station_file import StationFile
 from random_stations import random_stations
@@ -306,11 +306,6 @@ def test_numbers_of_telephones_are_taken_out_of_texts():
     for text in ("Call 530-555-0101", "Call (530) 555-0101 x12", "Call +1 530.555.0101"):
         assert import_rows.remove_telephones(text) == "Call"
     assert import_rows.remove_telephones("1234 Route 50, 95726-1234") == "1234 Route 50, 95726-1234"
-
-
-def test_columns_are_those_of_the_first_line():
-    assert tables.columns(b"\xef\xbb\xbfName;Lat (deg);X\n1;2;3") == {"name", "lat", "x"}
-    assert tables.columns(b'{"a": 1}') == set()
 
 
 def test_no_source_is_invented(tmp_path):

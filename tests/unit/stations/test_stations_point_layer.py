@@ -11,9 +11,9 @@ import pytest
 from firetwin import cli
 from firetwin.errors import InputError
 from firetwin.run.observations import projection
-from firetwin.stations import import_options, importers, reading
+from firetwin.stations import importers, reading
 from firetwin.stations.import_options import ImportOptions
-from firetwin.stations.importers import column_names, days, point_layer, stations_csv
+from firetwin.stations.importers import days, point_layer
 from pyproj import Transformer
 
 ROWS = [
@@ -217,8 +217,3 @@ def test_web_mercator_and_utm_are_those_of_proj(tmp_path):
 )  # fmt: skip
 def test_days_as_files_write_them(value, day):
     assert days.parse_day(value) == day
-
-
-def test_every_meaning_has_spellings():
-    assert tuple(sorted(column_names._SPELLINGS)) == tuple(sorted(import_options.MEANINGS))
-    assert stations_csv.NAME == "CSV of stations"

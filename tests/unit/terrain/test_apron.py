@@ -85,11 +85,6 @@ def test_ridges_do_not_stand_in_rows_across_the_edge():
         assert bends[0] < 1.2 * bends[1]
 
 
-def test_rows_beyond_an_edge_are_those_as_far_within():
-    position = np.array([-3.0, -1.0, 0.0, 4.0, 9.0, 10.0, 12.0, 19.0])
-    assert apron._reflected(10, position).tolist() == [3, 1, 0, 4, 9, 8, 6, 1]
-
-
 def island(shore):
     """A grid whose land ends at a distance (cells) from its middle, or that has none: sea at 0 m."""
     y, x = np.mgrid[-60:60, -60:60]

@@ -1,8 +1,8 @@
 """The user's map of land use: kinds of features, their position, and areas without plants."""
 
 import json
-import sqlite3
 
+import geopackage_file
 import numpy as np
 import pytest
 from firetwin.errors import InputError
@@ -203,18 +203,7 @@ def test_another_file_is_refused_by_its_name(make):
 def test_lines_of_a_geopackage_are_read(tmp_path):
     path = tmp_path / "roads.gpkg"
     points = np.array([[WEST, SOUTH], [EAST, NORTH]])
-    shape = b"\1" + np.array([2, 2], "<u4").tobytes() + points.astype("<f8").tobytes()
-    blob = b"GP\0\1" + np.array([4326], "<i4").tobytes() + shape
-    with sqlite3.connect(path) as base:
-        base.executescript(
-            """CREATE TABLE gpkg_spatial_ref_sys (srs_name, srs_id INTEGER, organization,
-organization_coordsys_id INTEGER, definition, description);
-INSERT INTO gpkg_spatial_ref_sys VALUES ('', 4326, 'EPSG', 4326, '', '');
-CREATE TABLE gpkg_geometry_columns (table_name, column_name, geometry_type_name, srs_id, z, m);
-INSERT INTO gpkg_geometry_columns VALUES ('roads', 'geom', 'LINESTRING', 4326, 0, 0);
-CREATE TABLE roads (geom, highway);"""
-        )
-        base.execute("INSERT INTO roads VALUES (?, 'primary')", (blob,))
+    geopackage_file.write(path, ["highway"], roads=[(geopackage_file.line(points), "primary")])
     (found,) = features(path)
     assert land_kinds.kind_of(found.properties) == "road"
     assert np.array_equal(found.lines[0], points)

@@ -79,12 +79,6 @@ def test_what_is_not_a_number_comes_last():
     assert lod.select_nearest(position, [[np.nan, 0, 0]], 2).tolist() == [0, 1]
 
 
-def test_a_camera_on_an_emitter():
-    position = np.array([[7, 7, 7], [0, 0, 0], [1e-300, 0, 0]])
-    assert lod.select_nearest(position, [[0, 0, 0]], 2).tolist() == [1, 2]
-    assert lod.levels(np.linalg.norm(position - position[1], axis=1)).tolist() == [0, 0, 0]
-
-
 def test_wrong_arguments():
     with pytest.raises(ValueError, match="budget"):
         lod.select_nearest(np.zeros((1, 3)), np.zeros((1, 3)), -1)

@@ -16,8 +16,3 @@ def test_thick_haze_by_day_is_brighter_and_warmer_than_thin_haze(height):
 def test_thick_haze_at_night_is_as_dark_as_thin_haze():
     light = sky.State(180.0, -30.0)
     assert light.horizon == pytest.approx(light.haze, rel=0.3)
-
-
-def test_haze_of_the_boundary_layer_is_below_mountains():
-    low, high = (sky.LOW_HAZE * np.exp(-height / sky.LOW_HEIGHT) for height in (0.0, 2500.0))
-    assert low > 1.0 > 5.0 * high

@@ -92,13 +92,6 @@ def test_a_budget_raises_the_error_no_more_than_it_must(tree, target, most):
         assert cut.error == (steps[-1] if least is None else least)
 
 
-def test_replaced_children_come_all_or_none():
-    parent, error = [-1, 0, 0, 1, 1], [50.0, 40.0, -1.0, 5.0, -1.0]
-    assert select(parent, [R | C] * 5, error, 16.0).tiles.tolist() == [2, 3, 4]
-    assert select(parent, [R | C] * 5, error, 45.0).tiles.tolist() == [1, 2]
-    assert select(parent, [C] * 5, error, 16.0).tiles.tolist() == [0, 1, 3]
-
-
 def test_a_holder_stands_for_its_child_even_where_no_view_sees_it():
     parent, error = [-1, 0, 0, 2], [50.0, 5.0, -1.0, -1.0]
     assert select(parent, [R | C, R | C, R | U | H, R | C], error, 16.0).tiles.tolist() == [1, 3]

@@ -26,9 +26,9 @@ from firetwin.shot.terrain import tile_heights
 from firetwin.shot.tiles import tile_cut
 from firetwin.tiles import decoded, policies
 from firetwin.tiles.policies import Policy
-from firetwin.tiles.sources import backoff, http, http_cache
+from firetwin.tiles.sources import http, http_cache
 from firetwin.tiles.sources.network import Network
-from lying_server import Reply, serving
+from lying_server import Clock, Reply, serving
 
 FRESH = {"Cache-Control": "private, max-age=3600", "ETag": '"1"'}
 SCENE = """run = "run"
@@ -42,18 +42,6 @@ longitude = -120.56
 height = 600.0
 target = "head"
 """
-
-
-class Clock(backoff.Clock):
-    """A clock that does not wait."""
-
-    def __init__(self):
-        self.time, self.slept = time.time(), []
-        super().__init__(now=lambda: self.time, sleep=self._sleep, jitter=lambda: 1.0)
-
-    def _sleep(self, seconds):
-        self.slept.append(seconds)
-        self.time += seconds
 
 
 @pytest.fixture(scope="module")

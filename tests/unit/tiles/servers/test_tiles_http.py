@@ -18,7 +18,7 @@ from firetwin.tiles.policies import ion as ion_policy
 from firetwin.tiles.sources import MissingError, address, backoff, connection, ion, open_source, secret
 from firetwin.tiles.sources.http import Http
 from firetwin.tiles.sources.network import Network
-from lying_server import Reply, serving
+from lying_server import Clock, Reply, serving
 from tile_views import HERE, looking, names
 from tilesets import GLB, as_bytes, box, tile, tileset
 
@@ -31,18 +31,6 @@ WITH_SESSION = Policy("imitation", key_parameter="key", session_parameter="sessi
 def server():
     with serving() as each:
         yield each
-
-
-class Clock(backoff.Clock):
-    """A clock that does not wait; it remembers how long it should have."""
-
-    def __init__(self):
-        self.time, self.slept = time.time(), []
-        super().__init__(now=lambda: self.time, sleep=self._sleep, jitter=lambda: 1.0)
-
-    def _sleep(self, seconds):
-        self.slept.append(seconds)
-        self.time += seconds
 
 
 @pytest.fixture

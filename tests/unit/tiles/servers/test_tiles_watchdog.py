@@ -8,12 +8,8 @@ from firetwin.errors import InputError
 from firetwin.tiles.sources import MissingError
 from firetwin.tiles.sources.http import Http
 from firetwin.tiles.sources.network import Network
-from firetwin.tiles.sources.watchdog import Pace, Spent, Watch, Watchdog
+from firetwin.tiles.sources.watchdog import Pace, Watch, Watchdog
 from lying_server import Reply, serving
-
-
-class Dripping(bytes):
-    """A body of a byte at a time."""
 
 
 @pytest.fixture
@@ -103,10 +99,3 @@ def test_a_watch_ends_with_its_request():
         pass
     time.sleep(0.05)
     assert not watch.expired
-
-
-def test_time_is_added_over_the_sources_of_a_job():
-    spent = Spent()
-    network = Network(cache=None, spent=spent)
-    network.spent.add(2.0)
-    assert spent.seconds == 2.0
