@@ -112,11 +112,11 @@ def run(run_folder):
 
 @pytest.fixture
 def settings(run_folder, tmp_path):
+    return small_settings(run_folder, tmp_path)
+
+
+def small_settings(run_folder, folder):
     """A drone over the run's centre, three frames over an hour, flat, without a stand, with a small apron."""
-    return _settings(run_folder, tmp_path)
-
-
-def _settings(run_folder, folder):
     keys = (
         CameraKey(0.0, 38.825, -120.56, 400.0, "point", 38.845, -120.55, 0.0),
         CameraKey(1.0, 38.830, -120.57, 500.0, "point", 38.845, -120.55, 0.0),
@@ -184,7 +184,7 @@ def built_file(factory, run_folder, run, tmp_path_factory):
 
     def make(folder):
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-        stage, settings = owned.adopt(bpy.context.scene), _settings(run_folder, folder)
+        stage, settings = owned.adopt(bpy.context.scene), small_settings(run_folder, folder)
         build.build(Shot(settings, run), stage.scene)
         layers.build(settings, stage)
         bpy.ops.wm.save_as_mainfile(filepath=str(folder / "built.blend"))

@@ -1,14 +1,21 @@
 """A shot on tiles made of its ground, prepared within the process of a test."""
 
 import re
+import shutil
 from dataclasses import replace
 
 import pytest
 from firetwin.blender import nodes
 from firetwin.jobs.tiles import decode, make, selection
 from firetwin.scene.terrain import material
+from firetwin.shot.shot import Shot
+from firetwin.shot.terrain import tile_heights
+from made_once import made_once
+from small_scene import small_settings
 
-__all__ = ["decoded_here", "plain_tiles", "tiled"]
+__all__ = ["decoded_here", "plain_tiles", "prepared_tiles", "tiled"]
+
+FEW = 400  # points of heights of tiles
 
 
 @pytest.fixture
@@ -24,26 +31,49 @@ def plain_tiles(monkeypatch):
     monkeypatch.setattr(material, "build", build)
 
 
-@pytest.fixture
-def decoded_here(monkeypatch):
-    """Decode within this process."""
+def decode_here(patch):
+    """Decode within this process, for as long as the patch lasts."""
 
     def here(contents, progress):
         return decode.in_process(contents, progress, print)
 
-    monkeypatch.setattr(decode, "_limit", lambda memory: None)
-    monkeypatch.setattr(decode, "run", here)
+    patch.setattr(decode, "_limit", lambda memory: None)
+    patch.setattr(decode, "run", here)
 
 
 @pytest.fixture
-def tiled(shot, tmp_path, decoded_here):
-    """A shot on tiles made of its ground in `tmp_path`/set, prepared within this process."""
-    make.run(shot, make.TilesRequest(tmp_path / "set", credit="Somebody", geoid=-24.9))
-    known = replace(
-        shot.settings.tiles, sources=(str(tmp_path / "set"),), max_screen_space_error=2.0, geoid=-24.9
-    )
-    found = shot.with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
-    told = selection.make(found)
-    assert told[0] == "credits of tiles, which pictures show: Somebody"
-    assert re.fullmatch(r"the tiles' ground is 0\.0 m above .* 90 % of places\)", told[1])
-    return found
+def decoded_here(monkeypatch):
+    """Decode within this process."""
+    decode_here(monkeypatch)
+
+
+@pytest.fixture(scope="session")
+def prepared_tiles(factory, run_folder, run, tmp_path_factory):
+    """A folder with `set`, a tileset made of the ground of the small run, and `cache`, its prepared tiles."""
+
+    def write(folder):
+        with pytest.MonkeyPatch.context() as patch:
+            decode_here(patch)
+            patch.setattr(tile_heights, "_MOST", FEW)
+            shot = Shot(small_settings(run_folder, folder), run)
+            make.run(shot, make.TilesRequest(folder / "set", credit="Somebody", geoid=-24.9))
+            told = selection.make(on_tiles(shot, folder, folder / "cache"))
+        assert told[0] == "credits of tiles, which pictures show: Somebody"
+        assert re.fullmatch(r"the tiles' ground is 0\.0 m above .* 90 % of places\)", told[1])
+
+    return made_once(tmp_path_factory, "prepared_tiles", write)
+
+
+def on_tiles(shot, folder, cache):
+    """Make a shot on the tileset `set` of a folder."""
+    sources = (str(folder / "set"),)
+    tiles = replace(shot.settings.tiles, sources=sources, max_screen_space_error=2.0, geoid=-24.9)
+    return shot.with_settings(replace(shot.settings, tiles=tiles, cache=cache))
+
+
+@pytest.fixture
+def tiled(shot, tmp_path, prepared_tiles, decoded_here, monkeypatch):
+    """A shot on prepared tiles of its ground, with a cache of its own."""
+    monkeypatch.setattr(tile_heights, "_MOST", FEW)
+    shutil.copytree(prepared_tiles / "cache", tmp_path / "cache")
+    return on_tiles(shot, prepared_tiles, tmp_path / "cache")

@@ -189,8 +189,9 @@ def test_an_artists_models_take_the_place_of_their_class(shot, stage, plain_look
     _artist("c", 8.0, **{"class": "large", "level": 2}).modifiers.new("more", "SUBSURF")
     _artist("a", 3.0, **{"class": "small", "state": "snag"})
     _artist("d", 2.0, **{"class": "rock"})
-    made = library.tree_models(shot, stage)
     every = models.every()
+    own = next(k for k, model in enumerate(every) if (model.kind, model.state) == ("medium", "living"))
+    made = library.tree_models(shot, stage, {int(models.instance(np.array(own), np.array(3)))})
     assert len(made.objects) == len(every) * levels.LEVELS
     for thing in made.objects:
         k, level = map(int, thing.name.split()[2:4])
@@ -199,14 +200,14 @@ def test_an_artists_models_take_the_place_of_their_class(shot, stage, plain_look
             ("small", "snag"),
             ("rock", "living"),
         )
-        height = np.array([vertex.co for vertex in thing.data.vertices])[:, 2]
         if theirs:
+            height = np.array([vertex.co for vertex in thing.data.vertices])[:, 2]
             assert len(height) == (26 if every[k].kind == "large" and level >= 2 else 8)
             assert (height.min(), height.max()) == pytest.approx((0.0, 1.0), abs=1e-6)
             if every[k].kind == "large" and level < 2:
                 assert thing.data.materials[0].name == "theirs"
         else:
-            assert len(thing.data.materials) == 2
+            assert len(thing.data.materials) == (2 if (k, level) == (own, 3) else 0)
     owned.purge()
     assert bpy.data.objects["b"].data.materials[0].name == "theirs"
     assert np.allclose(bpy.data.objects["b"].location, (70.0, -20.0, 5.0))

@@ -129,7 +129,8 @@ def test_the_default_picture_has_land_and_sea_where_they_are(space):
     image = globe.load_picture(space)
     assert image.packed_file.size < 2_000_000
     width, height = image.size
-    pixels = np.array(image.pixels[:], np.float32).reshape(height, width, -1)
+    pixels = np.empty((height, width, 4), np.float32)
+    image.pixels.foreach_get(pixels.ravel())
 
     def at(latitude, longitude):
         return pixels[int((latitude + 90) / 180 * height), int((longitude + 180) / 360 * width), :3]

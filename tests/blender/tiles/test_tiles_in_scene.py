@@ -14,18 +14,11 @@ from firetwin.scene.terrain import build as ground_build
 from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import mesh
 from firetwin.shot import passes
-from firetwin.shot.terrain import tile_heights
 from firetwin.shot.tiles import tile_cut
 from firetwin.tiles import geoid
 from tiles_scene import *  # noqa: F403
 
 pytestmark = pytest.mark.usefixtures("plain_tiles")
-
-
-@pytest.fixture(autouse=True)
-def coarse_heights(monkeypatch):
-    """Sample the heights of tiles at few points."""
-    monkeypatch.setattr(tile_heights, "_MOST", 400)
 
 
 def test_tiles_stand_in_place_of_the_ground(tiled, stage, shot):

@@ -1,6 +1,7 @@
 """The panel of tiles: boxes at once, coarse tiles, numbers, credits, and everything gone again."""
 
 import pickle
+import shutil
 from dataclasses import replace
 
 import bpy
@@ -10,7 +11,7 @@ import pytest
 from firetwin.blender import owned
 from firetwin.errors import InputError
 from firetwin.jobs import worker
-from firetwin.jobs.tiles import bounding_boxes, make
+from firetwin.jobs.tiles import bounding_boxes
 from firetwin.jobs.worker import StoppedError
 from firetwin.scene.tiles import preview, reuse
 from firetwin.shot import schema
@@ -37,9 +38,9 @@ def here(monkeypatch):
 
 
 @pytest.fixture
-def tiled_panel(panel, here, settings, shot, tmp_path, monkeypatch):
+def tiled_panel(panel, here, settings, prepared_tiles, tmp_path, monkeypatch):
     """The panel of a small shot with a tileset of its ground next to the scene file."""
-    make.run(shot, make.TilesRequest(tmp_path / "set", credit="A; B", geoid=-24.9))
+    shutil.copytree(prepared_tiles / "set", tmp_path / "set")
     monkeypatch.setattr(tile_heights, "_MOST", 200)  # points of heights, which nothing here looks at
     panel.output = str(tmp_path / "out")
     bare = replace(settings.forest, trees=False)
@@ -71,7 +72,7 @@ def test_boxes_are_one_object_of_lines(tiled_panel):
     (obj,) = preview_objects()
     facts = tile_facts.read(tiled_panel.tile_facts)
     assert len(facts["sources"]) == 1
-    assert facts["credits"] == ["A; B"]
+    assert facts["credits"] == ["Somebody"]
     assert len(obj.data.vertices) % 8 == 0 < len(obj.data.vertices)
     assert len(obj.data.edges) == 12 * len(obj.data.vertices) // 8
     assert not obj.data.polygons
@@ -117,7 +118,7 @@ def test_a_build_replaces_the_preview(tiled_panel):
 def test_credits_are_drawn_while_there_are_tiles(tiled_panel):
     assert not tile_credits.shown()
     bpy.ops.firetwin.tiles_preview(boxes=True)
-    assert tiled_panel.tile_credits == "A; B"
+    assert tiled_panel.tile_credits == "Somebody"
     assert tile_credits.shown()
     bpy.ops.firetwin.tiles_clear()
     assert not tile_credits.shown()

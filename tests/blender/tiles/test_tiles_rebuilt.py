@@ -11,7 +11,6 @@ from firetwin.scene import build as scene_build
 from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import reuse
 from firetwin.shot.shot import Shot
-from firetwin.shot.terrain import tile_heights
 from firetwin.shot.tiles import tile_cut
 from lying_server import Reply, serving
 from tiles_scene import *  # noqa: F403
@@ -59,12 +58,11 @@ def test_nothing_is_fetched_or_decoded_again(tiled, monkeypatch):
     assert tile_cut.of_shot(tiled) == before
 
 
-def test_of_a_server_nothing_is_fetched_again(tiled, tmp_path, monkeypatch):
+def test_of_a_server_nothing_is_fetched_again(tiled, prepared_tiles, tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "kept"))
-    monkeypatch.setattr(tile_heights, "_MOST", 200)  # points of heights, which nothing here looks at
     with serving() as server:
-        for path in (tmp_path / "set").rglob("*.*"):
-            name = path.relative_to(tmp_path / "set").as_posix()
+        for path in (prepared_tiles / "set").rglob("*.*"):
+            name = path.relative_to(prepared_tiles / "set").as_posix()
             server.answers[f"/{name}"] = Reply(200, path.read_bytes(), {"Cache-Control": "max-age=3600"})
         sources = (f"{server.url}/tileset.json",)
         settings = replace(tiled.settings, tiles=replace(tiled.settings.tiles, sources=sources))
@@ -91,7 +89,7 @@ def test_one_changed_tile_is_one_new_mesh(tiled, stage):
     assert after["images"] == before["images"]
 
 
-def test_what_left_the_cut_is_removed(tiled, stage):
+def test_what_left_the_cut_or_the_settings_is_removed(tiled, shot, stage):
     before = build(tiled, stage)
     cut = tile_cut.of_shot(tiled)
     tiles_build.build(tiled, stage, replace(cut, tiles=cut.tiles[:-1]), None)
@@ -99,50 +97,66 @@ def test_what_left_the_cut_is_removed(tiled, stage):
     assert not new(before, after, "meshes")
     assert len(after["meshes"]) == len(before["meshes"]) - 1
     assert len(stage.objects_of("Tiles")) == len(cut.tiles) - 1
-
-
-def test_without_sources_all_tiles_are_removed(tiled, shot, stage):
-    build(tiled, stage)
     scene_build.build(shot, stage.scene, ("terrain",))
     assert not stage.objects_of("Tiles")
     assert not [each for each in bpy.data.meshes if reuse.TILE in each]
 
 
-def edited(name, value):
-    def edit(data):
-        data.attributes[name].data[0].value = value
-
-    return edit
-
-
-def moved(data):
-    data.vertices[0].co.z += 1.0
-
-
-def coloured(data):
-    data.attributes["tile_colour"].data[0].color = (1.0, 0.0, 0.0, 1.0)
-
-
-def keyed(data):
-    obj = next(obj for obj in bpy.data.objects if obj.data == data)
-    obj.shape_key_add(name="Basis")
-
-
-def flipped(data):
-    data.flip_normals()
-
-
-@pytest.mark.parametrize("edit", [moved, coloured, keyed, flipped, edited("elevation", 0.0)])
-def test_a_tile_that_was_edited_is_made_again(tiled, stage, edit):
+def test_tiles_that_were_edited_are_made_again(tiled, stage):
     before = build(tiled, stage)
-    name, data = next(iter(built_tiles().items()))
-    arrays = state.digest_mesh(data)
-    uid = data.session_uid
-    edit(data)
+    tiles = built_tiles()
+    arrays = {name: state.digest_mesh(data) for name, data in tiles.items()}
+    moved, coloured, keyed, flipped = list(tiles.values())[:4]
+    moved.vertices[0].co.z += 1.0
+    coloured.attributes["tile_colour"].data[0].color = (1.0, 0.0, 0.0, 1.0)
+    next(obj for obj in bpy.data.objects if obj.data == keyed).shape_key_add(name="Basis")
+    flipped.flip_normals()
+    edited = {data.session_uid for data in (moved, coloured, keyed, flipped)}
     after = build(tiled, stage)
-    assert len(new(before, after, "meshes")) == 1
-    assert uid not in after["meshes"]
-    assert state.digest_mesh(built_tiles()[name]) == arrays
+    assert new(after, before, "meshes") == edited
+    assert len(new(before, after, "meshes")) == 4
+    assert {name: state.digest_mesh(data) for name, data in built_tiles().items()} == arrays
+
+
+def edit_material(stage, tiled):
+    nodes = bpy.data.materials["Firetwin Tiles"].node_tree.nodes
+    group = next(node for node in nodes if node.type == "GROUP")
+    diffuse = next(node for node in group.node_tree.nodes if node.type == "BSDF_DIFFUSE")
+    diffuse.inputs["Roughness"].default_value = 0.25
+    return tiled
+
+
+def edit_image(stage, tiled):
+    (image,) = bpy.data.images
+    image.colorspace_settings.name = "Non-Color"
+    return tiled
+
+
+def set_haze(stage, tiled):
+    return tiled.with_settings(replace(tiled.settings, light=replace(tiled.settings.light, haze=0.5)))
+
+
+def widen_grid(stage, tiled):
+    return Shot(replace(tiled.settings, terrain=replace(tiled.settings.terrain, apron=30_000.0)), tiled.run)
+
+
+@pytest.mark.parametrize(
+    ("change", "renewed"),
+    [
+        (edit_material, {"materials"}),
+        (edit_image, {"images", "materials"}),
+        (set_haze, {"materials"}),
+        (widen_grid, {"meshes", "materials"}),
+    ],
+)
+def test_a_change_renews_what_depends_on_it(tiled, stage, change, renewed):
+    before = build(tiled, stage)
+    changed = change(stage, tiled)
+    tiles_build.build(changed, stage, tile_cut.of_shot(tiled), None)
+    after = blocks()
+    for kind in ("meshes", "materials", "images"):
+        same = before[kind].keys() & after[kind].keys()
+        assert same == (set() if kind in renewed else before[kind].keys()), kind
 
 
 def test_an_object_that_was_moved_goes_back(tiled, stage):
@@ -169,44 +183,6 @@ def test_an_artists_copy_keeps_its_mesh(tiled, stage):
     build(tiled, stage)
     assert bpy.data.objects["Mine"].data.session_uid == uid
     assert uid not in [data.session_uid for data in built_tiles().values()]
-
-
-def test_a_material_that_was_edited_is_made_again(tiled, stage):
-    before = build(tiled, stage)
-    group = next(
-        node for node in bpy.data.materials["Firetwin Tiles"].node_tree.nodes if node.type == "GROUP"
-    )
-    diffuse = next(node for node in group.node_tree.nodes if node.type == "BSDF_DIFFUSE")
-    diffuse.inputs["Roughness"].default_value = 0.25
-    after = build(tiled, stage)
-    assert len(new(before, after, "materials")) == 2
-    assert after["meshes"] == before["meshes"]
-    assert after["images"] == before["images"]
-
-
-def test_another_image_setting_makes_the_image_again(tiled, stage):
-    before = build(tiled, stage)
-    (image,) = bpy.data.images
-    image.colorspace_settings.name = "Non-Color"
-    after = build(tiled, stage)
-    assert len(new(before, after, "images")) == 1
-    assert after["meshes"] == before["meshes"]
-
-
-def test_other_settings_make_materials_again_but_no_mesh(tiled, stage):
-    before = build(tiled, stage)
-    other = tiled.with_settings(replace(tiled.settings, light=replace(tiled.settings.light, haze=0.5)))
-    after = build(other, stage)
-    assert new(before, after, "materials")
-    assert after["meshes"] == before["meshes"]
-
-
-def test_another_grid_makes_all_meshes_again(tiled, stage):
-    before = build(tiled, stage)
-    terrain = replace(tiled.settings.terrain, apron=30_000.0)
-    wider = Shot(replace(tiled.settings, terrain=terrain), tiled.run)
-    tiles_build.build(wider, stage, tile_cut.of_shot(tiled), None)
-    assert not before["meshes"].keys() & blocks()["meshes"].keys()
 
 
 def test_a_file_that_was_saved_keeps_its_tiles(tiled, stage, tmp_path):
