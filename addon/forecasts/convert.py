@@ -76,5 +76,5 @@ def in_process(
     tell(f"{len(made.members)} of {total} members, up to {made.horizon / 3600.0:.4g} h{issued}")
     for each in made.left_out:
         tell(f"left out: {each.name}: {each.reason}")
-    for text in notes:
+    for text in filter(None, notes):
         tell(text)

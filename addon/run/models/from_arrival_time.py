@@ -12,7 +12,7 @@ from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ...errors import Error, input_error
-from . import fuels, heat_from_intensity
+from . import companion_rasters, fuels, heat_from_intensity, raster
 from .companion_rasters import LandRasters
 from .given_wind import Wind
 from .grid import Grid
@@ -45,6 +45,47 @@ class Maps:
     elevation: NDArray | None = None
     category: NDArray | None = None
     wind: Wind | None = None
+
+
+def arrival_times(read: raster.Raster, unit: float) -> NDArray:
+    """Return the arrival times (ny, nx) of a raster in a unit (s), in s; NaN in unburned cells."""
+    values = read.values * np.float64(unit)
+    return np.where(values < 0.0, np.nan, values)
+
+
+def read_rasters(
+    first: Path,
+    unit: float,
+    layers: list[tuple[Path, str, float]],
+    paths: list[Path],
+    options: Options,
+    source: str,
+    notes: list[str],
+) -> Model:
+    """Read rasters as a model.
+
+    Parameters
+    ----------
+    first, unit
+        Raster of arrival times, and its unit, s.
+    layers
+        Other rasters: path, name in `Maps`, and unit in SI.
+    paths
+        Files of the run, among them its companion rasters.
+    """
+    arrival = raster.read(first)
+    maps = Maps(arrival_times(arrival, unit))
+    for path, name, factor in layers:
+        layer = raster.read(path)
+        if layer.values.shape != arrival.values.shape:
+            raise input_error(path, "has another grid than the arrival times")
+        setattr(maps, name, np.where(layer.values > 0, layer.values * np.float64(factor), np.nan))
+    land = companion_rasters.find(paths, look=True)
+    projection = options.projection or arrival.projection or land.projection
+    grid, note = arrival.grid(projection, options.at)
+    options = Options(options.start, options.at, projection, options.interval)
+    files = [first, *(path for path, _, _ in layers)]
+    return model(maps, grid, land, options, source, files, [*notes, *([note] if note else [])])
 
 
 def model(

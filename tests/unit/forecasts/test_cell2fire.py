@@ -54,7 +54,7 @@ def test_other_ignitions_do_not_forecast_one_fire(results, tmp_path):
     (results / "ignition_and_weather_log.csv").write_text(LOG.replace("3,1", "3,5"))
     said = run(results, tmp_path / "out")
     assert ensemble.open(tmp_path / "out").manifest.kind == "ignitions"
-    assert "the simulations have 2 ignitions, so they do not forecast one fire" in said
+    assert "the members have 2 ignitions, so they do not forecast one fire" in said
 
 
 def test_a_simulation_without_an_ignition_is_left_out(results, tmp_path):

@@ -18,18 +18,18 @@ from numpy.typing import NDArray
 
 from ....errors import input_error, reading
 from ....files import check_text_size
-from ....run.models import from_arrival_time, raster
+from ....run.models import raster
 from ....run.models.model import Options
 from .. import write
-from ..manifest import Manifest, Member
-from ..member_set import MemberSet
-from .files_in import files_in
+from ..manifest import Member
+from ..member_set import MemberSet, burned, describe
+from .files_in import files_in, read_table
 
 NAME, ORDER = "Cell2Fire", 20
 
 _MESSAGES = re.compile(r"MessagesFile(\d+)\.csv$")
 _LOG = "ignition_and_weather_log.csv"
-_COLUMNS = "simulation", "ignition", "weather"
+_COLUMNS = "simulation", "ignition"
 
 
 def sniff(paths: list[Path]) -> bool:
@@ -45,39 +45,24 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     grid, note = fuels.grid(options.projection, options.at)
     messages = _messages(folder)
     log = _ignitions(folder / _LOG)
-    moving = len(set(log.values())) > 1
-    head = Manifest(
-        name=options.name or folder.name,
-        model="Cell2Fire",
-        issued=from_arrival_time.begun(options, folder),
-        horizon=horizon or max(60.0, *(_last(path) for path in messages.values())),
-        members=(),
-        zone=options.zone,
-        source=f"{NAME}, {len(messages)} simulations of {folder.name}",
-        kind="ignitions" if moving else "forecast",
-    )
-    notes = ["minutes of messages are arrival times; rows are from the north-west", *([note] if note else [])]
-    if moving:
-        notes.append(
-            f"the simulations have {len(set(log.values()))} ignitions, so they do not forecast one fire"
-        )
-    shape = grid.shape
-    return MemberSet(head, grid, _members(messages, log, folder / _LOG, shape, head.horizon), notes)
+    ends = (float(_lines(path)[:, 2].max(initial=0.0)) * 60.0 for path in messages.values())
+    horizon = horizon or max(60.0, *ends)
+    source = f"{NAME}, {len(messages)} simulations of {folder.name}"
+    head, notes = describe(options, folder, NAME, horizon, source, len(set(log.values())))
+    notes = ["minutes of messages are arrival times; rows are from the north", note, *notes]
+    members = burned(_members(messages, log, folder / _LOG, grid.shape), horizon)
+    return MemberSet(head, grid, members, notes)
 
 
 def _members(
-    messages: dict[int, Path], log: dict[int, int], path: Path, shape: tuple[int, int], horizon: float
+    messages: dict[int, Path], log: dict[int, int], path: Path, shape: tuple[int, int]
 ) -> Iterator[write.Read]:
     for number, file in messages.items():
-        member = Member(f"{number:03}")
-        if number not in log:
-            yield member, f"has no ignition in {path.name}"
-            continue
-        with reading(file):
-            yield member, _arrival(file, log[number], shape, horizon)
+        values = _arrival(file, log[number], shape) if number in log else f"has no ignition in {path.name}"
+        yield Member(f"{number:03}"), values
 
 
-def _arrival(path: Path, ignition: int, shape: tuple[int, int], horizon: float) -> NDArray[np.float32]:
+def _arrival(path: Path, ignition: int, shape: tuple[int, int]) -> NDArray[np.float64]:
     """Return the arrival times (ny, nx), s, of one simulation."""
     lines = _lines(path)
     cells = np.concatenate([[ignition], lines[:, 1]]).astype(np.int64)
@@ -87,8 +72,7 @@ def _arrival(path: Path, ignition: int, shape: tuple[int, int], horizon: float) 
         raise input_error(path, reason)
     arrival = np.full(shape[0] * shape[1], np.inf)
     np.minimum.at(arrival, cells - 1, seconds)
-    arrival[arrival > horizon] = np.inf
-    return arrival.reshape(shape).astype(np.float32)
+    return arrival.reshape(shape)
 
 
 def _lines(path: Path) -> NDArray[np.float64]:
@@ -99,44 +83,30 @@ def _lines(path: Path) -> NDArray[np.float64]:
     InputError
         A line has other than four numbers.
     """
-    check_text_size(path)
-    rows = []
-    with path.open(encoding="ascii", errors="replace", newline="") as file:
-        for number, row in enumerate(csv.reader(file), 1):
-            try:
-                rows.append([float(each) for each in row])
-            except ValueError:
-                rows.append([])
-            if len(rows[-1]) != 4 or not np.isfinite(rows[-1]).all() or rows[-1][2] < 0.0:
-                reason = "is not a message: write from, to, minutes and m/min"
-                raise input_error(path, reason, line=number)
-    return np.array(rows, np.float64).reshape(-1, 4)
-
-
-def _last(path: Path) -> float:
-    """Return the last arrival of one simulation, s."""
     with reading(path):
-        return float(_lines(path)[:, 2].max(initial=0.0)) * 60.0
+        check_text_size(path)
+        lines = list(csv.reader(path.read_text(encoding="ascii", errors="replace").splitlines()))
+    rows = []
+    for number, line in enumerate(lines, 1):
+        try:
+            rows.append([float(word) for word in line])
+        except ValueError:
+            rows.append([])
+        if len(rows[-1]) != 4 or not np.isfinite(rows[-1]).all() or rows[-1][2] < 0.0:
+            raise input_error(path, "is not a message: write from, to, minutes and m/min", line=number)
+    return np.array(rows, np.float64).reshape(-1, 4)
 
 
 def _ignitions(path: Path) -> dict[int, int]:
     """Read the ignition cell of each simulation."""
     with reading(path):
-        check_text_size(path)
-        with path.open(encoding="utf-8", newline="") as file:
-            table = csv.DictReader(file)
-            if not set(_COLUMNS[:2]) <= set(table.fieldnames or ()):
-                raise input_error(path, f"has no columns {', '.join(_COLUMNS[:2])}", line=1)
-            return {int(row["simulation"]): int(row["ignition"]) for row in table}
+        return {int(simulation): int(cell) for _, (simulation, cell) in read_table(path, _COLUMNS)}
 
 
 def _messages(folder: Path) -> dict[int, Path]:
     """Return the message file of each simulation, by its number."""
-    found = {}
-    for path in (folder / "Messages").iterdir():
-        if match := _MESSAGES.match(path.name):
-            found[int(match[1])] = path
-    return dict(sorted(found.items()))
+    matches = {path: _MESSAGES.match(path.name) for path in (folder / "Messages").iterdir()}
+    return dict(sorted((int(match[1]), path) for path, match in matches.items() if match))
 
 
 def _results(paths: list[Path]) -> Path | None:

@@ -5,9 +5,10 @@ Each folder is read as `firetwin convert` reads it; heat and weather are not com
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from contextlib import closing
 from dataclasses import replace
-from datetime import datetime
 from pathlib import Path
 
 import numpy as np
@@ -18,8 +19,8 @@ from ....run import readers as runs
 from ....run.models.grid import Placed
 from ....run.models.model import Model, Options
 from .. import write
-from ..manifest import Manifest, Member
-from ..member_set import MemberSet
+from ..manifest import Member
+from ..member_set import MemberSet, attempt, burned, check_start, describe
 
 NAME, ORDER = "a folder for each member", 100
 
@@ -34,65 +35,46 @@ def sniff(paths: list[Path]) -> bool:
 def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     """Read one member for each folder."""
     folders = _folders(paths)
-    opened = [(folder, _model(folder, options)) for folder in folders]
-    models = [(folder, model) for folder, model in opened if isinstance(model, Model)]
+    opened = {folder: attempt(_model, folder, options) for folder in folders}
+    models = {folder: model for folder, model in opened.items() if isinstance(model, Model)}
     if not models:
-        raise input_error(paths[0], f"none of its {len(folders)} folders can be read; {opened[0][1]}")
-    first_folder, first = models[0]
-    head = Manifest(
-        name=options.name or paths[0].name,
-        model=first.source,
-        issued=first.start,
-        horizon=horizon or max(_end(model) or float(model.times[-1]) for _, model in models),
-        members=(),
-        zone=options.zone,
-        source=f"{len(folders)} folders of {first.source}",
-    )
+        raise input_error(paths[0], f"none of its {len(folders)} folders can be read; {opened[folders[0]]}")
+    first_folder, first = next(iter(models.items()))
+    horizon = horizon or max(_end(model) or float(model.times[-1]) for model in models.values())
+    started = replace(options, start=first.start)
+    source = f"{len(folders)} folders of {first.source}"
+    head, _ = describe(started, paths[0], first.source, horizon, source)
     notes = [f"{first_folder.name}: {text}" for text in first.assumptions]
-    return MemberSet(head, first.fuel_grid, _members(opened, first_folder, first), notes)
+    members = burned(_members(opened, first_folder, first), math.inf)
+    return MemberSet(head, first.fuel_grid, members, notes)
 
 
 def _members(
-    opened: list[tuple[Path, Model | InputError]], first_folder: Path, first: Model
+    opened: dict[Path, Model | InputError], first_folder: Path, first: Model
 ) -> Iterator[write.Read]:
     """Read arrival times on the grid of the first model, which the caller resamples."""
     placed = first.fuel_grid.placed
-    for folder, model in opened:
-        member = Member(folder.name)
+    for folder, model in opened.items():
         if isinstance(model, InputError):
-            yield member, model
+            yield Member(folder.name), model
             continue
-        try:
-            _check(folder, model, first_folder, first.start, placed)
-            arrival = model.still.get("fuel_arrival_time", lambda: None)()
-        except InputError as error:
-            if error.path == str(folder):
-                raise
-            yield member, error
-            continue
-        finally:
-            model.close()
-        if arrival is None:
-            yield member, "has no arrival times"
-            continue
-        values = np.asarray(arrival, np.float32)
-        end = _end(model)
-        member = replace(member, end=end) if end else member
-        yield (
-            member,
-            np.where(np.isnan(values), np.inf, values) if np.isfinite(values).any() else "nothing burns",
-        )
+        with closing(model):
+            check_start(folder, model.start, first_folder, first.start)
+            _check_cells(folder, model, first_folder, placed)
+            arrival = attempt(model.still.get("fuel_arrival_time", lambda: "has no arrival times"))
+        member = Member(folder.name, end=_end(model) or math.inf)
+        yield member, arrival if isinstance(arrival, str | InputError) else np.asarray(arrival, np.float32)
 
 
-def _model(folder: Path, options: Options) -> Model | InputError:
-    """Open a folder as a model; a reader that cannot is the reason why the member is left out."""
+def _model(folder: Path, options: Options) -> Model:
+    """Open a folder as a model."""
     try:
         files = runs.gathered([folder])
         return runs.reader(files).read(files, replace(options, name=""))
-    except InputError as error:
-        return error
+    except InputError:
+        raise
     except Error as error:
-        return input_error(folder, str(error))
+        raise input_error(folder, str(error)) from None
 
 
 def _end(model: Model) -> float:
@@ -100,19 +82,7 @@ def _end(model: Model) -> float:
     return float(model.times[-1]) if "burned_fraction" in model.moving else 0.0
 
 
-def _check(folder: Path, model: Model, first_folder: Path, start: datetime, placed: Placed) -> None:
-    """Check that a member has the start and the grid of the first one.
-
-    Raises
-    ------
-    InputError
-        It has not; the error's path is the folder.
-    """
-    shift = (model.start - start).total_seconds()
-    if abs(shift) > 0.5:
-        raise input_error(
-            folder, f"begins {shift / 3600.0:+.2f} h from {first_folder.name}; members have one start"
-        )
+def _check_cells(folder: Path, model: Model, first_folder: Path, placed: Placed) -> None:
     theirs = model.fuel_grid.placed
     if theirs.shape != placed.shape or not (
         _same(theirs.latitude, placed.latitude) and _same(theirs.longitude, placed.longitude)

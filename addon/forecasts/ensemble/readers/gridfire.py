@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-import csv
+import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -18,14 +18,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ....errors import InputError, input_error, reading
-from ....files import check_text_size
-from ....run.models import from_arrival_time, raster
+from ....errors import input_error, reading
 from ....run.models.model import LONGEST, Options
 from .. import write
-from ..manifest import Manifest, Member
-from ..member_set import MemberSet
-from .files_in import add_member, files_in
+from ..manifest import Member
+from ..member_set import MemberSet, attempt, burned, describe
+from . import burned_cells
+from .files_in import add_member, files_in, read_table
 
 NAME, ORDER = "GridFire", 30
 
@@ -53,65 +52,39 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     lists = _lists(files)
     first = next(iter(lists.values()))
     table = next((path for path in files if _STATISTICS.match(path.name)), None)
-    known = _statistics(table) if table else {}
-    like = next((path for path in files if raster.is_raster(path)), None)
-    if like is None:
-        raise input_error(first, "lists cells of a grid; give a raster of the inputs too, such as dem.tif")
-    grid, note = raster.read(like).grid(options.projection, options.at)
-    ignitions = len({each.ignition for each in known.values()})
-    longest = max((each.runtime for each in known.values()), default=0.0)
-    head = Manifest(
-        name=options.name or first.parent.name,
-        model=NAME,
-        issued=from_arrival_time.begun(options, first),
-        horizon=horizon or longest or max(60.0, *(_last(path) for path in lists.values())),
-        members=(),
-        zone=options.zone,
-        source=f"{NAME}, {len(lists)} simulations of {first.parent.name}",
-        kind="ignitions" if ignitions > 1 else "forecast",
-    )
-    notes = ["arrival times are in s, rows from the south", *([note] if note else [])]
-    if ignitions > 1:
-        notes.append(f"the simulations have {ignitions} ignitions, so they do not forecast one fire")
-    if not known:
+    simulations = _statistics(table) if table else {}
+    grid, note = burned_cells.read_inputs(files, first).grid(options.projection, options.at)
+    ignitions = len({each.ignition for each in simulations.values()})
+    longest = max((each.runtime for each in simulations.values()), default=0.0)
+    horizon = horizon or longest or burned_cells.last(_burned, lists.values())
+    source = f"{NAME}, {len(lists)} simulations of {first.parent.name}"
+    head, notes = describe(options, first, NAME, horizon, source, ignitions)
+    if not simulations:
         notes.append("without summary_stats.csv the ignited cells, which burn at time 0, are not known")
-    return MemberSet(head, grid, _members(lists, known, grid.shape, head.horizon), notes)
+    members = burned(_members(lists, simulations, grid.shape), horizon)
+    return MemberSet(head, grid, members, ["arrival times are in s, rows from the south", note, *notes])
 
 
 def _members(
-    lists: dict[int, Path], known: dict[int, _Simulation], shape: tuple[int, int], horizon: float
+    lists: dict[int, Path], simulations: dict[int, _Simulation], shape: tuple[int, int]
 ) -> Iterator[write.Read]:
-    for number in sorted({*lists, *known}):
-        simulation = known.get(number)
-        member = Member(f"{number:05}", end=simulation.runtime) if simulation else Member(f"{number:05}")
-        if number not in lists:
+    for number in sorted({*lists, *simulations}):
+        simulation = simulations.get(number)
+        member = Member(f"{number:05}", end=simulation.runtime if simulation else math.inf)
+        if number in lists:
+            yield member, attempt(_arrival, lists[number], shape, simulation)
+        else:
             yield member, "is in summary_stats.csv, and has no arrival times"
-            continue
-        try:
-            values = _arrival(lists[number], shape)
-        except InputError as error:
-            yield member, error
-            continue
-        if simulation and all(0 <= at < size for at, size in zip(simulation.ignition, shape, strict=True)):
-            values[simulation.ignition] = 0.0
-        values[values > horizon] = np.inf
-        yield member, values if np.isfinite(values).any() else "nothing burns"
 
 
-def _arrival(path: Path, shape: tuple[int, int]) -> NDArray[np.float32]:
-    """Read arrival times (ny, nx), s; rows from the north, inf where unburned."""
-    column, row, seconds = _burned(path)
-    if not ((column >= 1) & (column <= shape[1]) & (row >= 1) & (row <= shape[0])).all():
-        reason = f"has cell ({column.max()}, {row.max()}) where the raster has {shape[1]} x {shape[0]}"
-        raise input_error(path, f"{reason}; give a raster of its inputs")
-    if not (seconds >= 0.0).all():
-        raise input_error(path, "has arrival times that are negative or not numbers; it is damaged")
-    values = np.full(shape, np.inf, np.float32)
-    values[shape[0] - row, column - 1] = seconds
+def _arrival(path: Path, shape: tuple[int, int], simulation: _Simulation | None) -> NDArray[np.float32]:
+    values = burned_cells.place(path, _burned(path), shape)
+    if simulation and all(0 <= at < size for at, size in zip(simulation.ignition, shape, strict=True)):
+        values[simulation.ignition] = 0.0
     return values
 
 
-def _burned(path: Path) -> tuple[NDArray, NDArray, NDArray]:
+def _burned(path: Path) -> burned_cells.Cells:
     """Read columns, rows and arrival times (n,) of a list."""
     with reading(path, "list of burned cells"):
         data = path.read_bytes()
@@ -122,38 +95,24 @@ def _burned(path: Path) -> tuple[NDArray, NDArray, NDArray]:
     return parts[0], parts[1], np.frombuffer(data, ">f4", count, 4 + 8 * count)
 
 
-def _last(path: Path) -> float:
-    """Return the last arrival of a simulation, s."""
-    try:
-        return float(_burned(path)[2].max(initial=0.0))
-    except InputError:
-        return 0.0
-
-
 def _lists(files: list[Path]) -> dict[int, Path]:
     """Return the list of each simulation, by its number."""
-    found: dict[int, Path] = {}
+    lists: dict[int, Path] = {}
     for path in files:
         if match := _LIST.match(path.name):
-            add_member(found, int(match[1]), path)
-    return found
+            add_member(lists, int(match[1]), path)
+    return lists
 
 
 def _statistics(path: Path) -> dict[int, _Simulation]:
     """Read ignition and run time of each simulation."""
-    with reading(path):
-        check_text_size(path)
-        with path.open(encoding="utf-8", newline="") as file:
-            table = csv.DictReader(file)
-            if not set(_COLUMNS) <= set(table.fieldnames or ()):
-                raise input_error(path, f"has no columns {', '.join(_COLUMNS)}", line=1)
-            found = {}
-            for number, row in enumerate(table, 2):
-                try:
-                    simulation, down, across, minutes = (float(row[name]) for name in _COLUMNS)
-                    found[int(simulation)] = _Simulation((int(down), int(across)), minutes * 60.0)
-                except (TypeError, ValueError, OverflowError):
-                    minutes = np.nan
-                if not 0.0 <= minutes <= LONGEST / 60.0:
-                    raise input_error(path, f"has no numbers {', '.join(_COLUMNS)}", line=number)
-    return found
+    simulations = {}
+    for line, words in read_table(path, _COLUMNS):
+        try:
+            number, row, column, minutes = map(float, words)
+            simulations[int(number)] = _Simulation((int(row), int(column)), minutes * 60.0)
+        except (ValueError, OverflowError):
+            minutes = np.nan
+        if not 0.0 <= minutes <= LONGEST / 60.0:
+            raise input_error(path, f"has no numbers {', '.join(_COLUMNS)}", line=line)
+    return simulations

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -25,8 +25,8 @@ from ....run.models import raster
 from ....run.models.grid import Grid
 from ....run.models.model import Options
 from .. import write
-from ..manifest import Manifest, Member
-from ..member_set import MemberSet
+from ..manifest import Member
+from ..member_set import MemberSet, attempt, burned, check_start, describe
 
 NAME, ORDER = "QUIC-Fire", 60
 
@@ -55,45 +55,36 @@ def sniff(paths: list[Path]) -> bool:
 def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     """Read one member for each folder."""
     folders = _folders(paths)
-    opened = [(folder, _inputs(folder)) for folder in folders]
-    good = [(folder, each) for folder, each in opened if isinstance(each, _Set)]
+    opened = {folder: attempt(_inputs, folder) for folder in folders}
+    good = {folder: each for folder, each in opened.items() if isinstance(each, _Set)}
     if not good:
-        raise input_error(paths[0], f"none of its {len(folders)} folders can be read; {opened[0][1]}")
-    first_folder, first = good[0]
-    for folder, each in good[1:]:
-        _check(folder, each, first_folder, first)
+        raise input_error(paths[0], f"none of its {len(folders)} folders can be read; {opened[folders[0]]}")
+    first_folder, first = next(iter(good.items()))
+    for folder, each in good.items():
+        check_start(folder, each.issued, first_folder, first.issued)
+        if replace(each, issued=first.issued) != first:
+            raise input_error(
+                folder, f"has other cells than {first_folder.name}; members need cells of one grid"
+            )
     grid, note = _grid(first, options)
-    head = Manifest(
-        name=options.name or paths[0].name,
-        model=NAME,
-        issued=options.start or first.issued,
-        horizon=horizon or float(max(max(_masses(folder)) for folder, _ in good)),
-        members=(),
-        zone=options.zone,
-        source=f"{len(folders)} folders of {NAME}",
-    )
+    horizon = horizon or float(max(max(_masses(folder)) for folder in good))
+    issued = replace(options, start=options.start or first.issued)
+    head, _ = describe(issued, paths[0], NAME, horizon, f"{len(folders)} folders of {NAME}")
     notes = [
         "a cell burns from the middle between the last output without loss of mass and the first with it",
-        *([] if options.start else [f"issue time is the ignition in {_FIRE}, as UTC"]),
-        *([note] if note else []),
+        "" if options.start else f"issue time is the ignition in {_FIRE}, as UTC",
+        note,
     ]
-    return MemberSet(head, grid, _members(opened, head.horizon), notes)
+    return MemberSet(head, grid, burned(_members(opened), horizon), notes)
 
 
-def _members(opened: list[tuple[Path, _Set | InputError]], horizon: float) -> Iterator[write.Read]:
-    for folder, said in opened:
-        if isinstance(said, InputError):
-            yield Member(folder.name), said
-            continue
-        masses = _masses(folder)
-        try:
-            values = _arrival(masses, said.shape)
-        except InputError as error:
-            yield Member(folder.name), error
-            continue
-        values[values > horizon] = np.inf
-        member = Member(folder.name, end=float(max(masses)))
-        yield member, values if np.isfinite(values).any() else "nothing burns"
+def _members(opened: dict[Path, _Set | InputError]) -> Iterator[write.Read]:
+    for folder, inputs in opened.items():
+        if isinstance(inputs, InputError):
+            yield Member(folder.name), inputs
+        else:
+            masses = _masses(folder)
+            yield Member(folder.name, end=float(max(masses))), attempt(_arrival, masses, inputs.shape)
 
 
 def _arrival(masses: dict[int, Path], shape: tuple[int, int]) -> NDArray[np.float32]:
@@ -120,28 +111,24 @@ def _lost(path: Path, shape: tuple[int, int]) -> NDArray[np.float32]:
     return values
 
 
-def _inputs(folder: Path) -> _Set | InputError:
-    """Read the inputs of a simulation; an error is the reason why the member is left out."""
-    try:
-        grid, fire = _lines(folder / _GRID), _lines(folder / _FIRE)
-        nx, ny, _, dx, dy = (_number(folder / _GRID, grid, at) for at in range(1, 6))
-        if not (1 <= nx * ny <= _MOST and nx >= 1 and dx > 0 and dy > 0):
-            raise input_error(folder / _GRID, f"has {nx:g} x {ny:g} cells of {dx:g} x {dy:g} m; correct it")
-        named = {word: _after(grid, word) for word in ("UTMX", "UTMY", "UTM zone[^l]*$", "UTM zone l", "rot")}
-        x, y, zone, letter, turned = named.values()
-        if turned:
-            raise input_error(folder / _GRID, f"is turned by {turned:g} degrees; grids are upright")
-        times = next((at for at, line in enumerate(fire) if "FIRE TIMES" in line), -1)
-        begun = _number(folder / _FIRE, fire, times + 1)
-        if times < 0 or not 0 < begun < 4e9:
-            raise input_error(folder / _FIRE, "has no ignition as a Unix time after FIRE TIMES")
-    except InputError as error:
-        return error
+def _inputs(folder: Path) -> _Set:
+    """Read the inputs of a simulation."""
+    grid, fire = _lines(folder / _GRID), _lines(folder / _FIRE)
+    nx, ny, _, dx, dy = (_number(folder / _GRID, grid, at) for at in range(1, 6))
+    if not (1 <= nx * ny <= _MOST and nx >= 1 and dx > 0 and dy > 0):
+        raise input_error(folder / _GRID, f"has {nx:g} x {ny:g} cells of {dx:g} x {dy:g} m; correct it")
+    x, y, zone, letter, turned = (
+        _after(grid, word) for word in ("UTMX", "UTMY", "UTM zone[^l]*$", "UTM zone l", "rot")
+    )
+    if turned:
+        raise input_error(folder / _GRID, f"is turned by {turned:g} degrees; grids are upright")
+    times = next((at for at, line in enumerate(fire) if "FIRE TIMES" in line), -1)
+    begun = _number(folder / _FIRE, fire, times + 1)
+    if times < 0 or not 0 < begun < 4e9:
+        raise input_error(folder / _FIRE, "has no ignition as a Unix time after FIRE TIMES")
     side = 6 if letter >= _NORTH else 7
-    known = (x or y) and 1 <= zone <= 60
-    projection = f"EPSG:32{side}{int(zone):02}" if known else ""
-    issued = datetime.fromtimestamp(begun, UTC)
-    return _Set((int(ny), int(nx)), (dy, dx), (x, y), projection, issued)
+    projection = f"EPSG:32{side}{int(zone):02}" if (x or y) and 1 <= zone <= 60 else ""
+    return _Set((int(ny), int(nx)), (dy, dx), (x, y), projection, datetime.fromtimestamp(begun, UTC))
 
 
 def _lines(path: Path) -> list[str]:
@@ -180,36 +167,11 @@ def _grid(said: _Set, options: Options) -> tuple[Grid, str]:
     return raster.local(x, y, options.at)
 
 
-def _check(folder: Path, said: _Set, first_folder: Path, first: _Set) -> None:
-    """Check that a member has the start and the grid of the first one.
-
-    Raises
-    ------
-    InputError
-        It has not.
-    """
-    shift = (said.issued - first.issued).total_seconds()
-    if abs(shift) > 0.5:
-        raise input_error(
-            folder, f"begins {shift / 3600.0:+.2f} h from {first_folder.name}; members have one start"
-        )
-    if (said.shape, said.side, said.corner, said.projection) != (
-        first.shape,
-        first.side,
-        first.corner,
-        first.projection,
-    ):
-        raise input_error(folder, f"has other cells than {first_folder.name}; members need cells of one grid")
-
-
 def _masses(folder: Path) -> dict[int, Path]:
     """Return the outputs of burned mass by time, s."""
-    found = {}
-    for place in (folder, folder / "Output"):
-        for path in place.iterdir() if place.is_dir() else ():
-            if match := _MASS.match(path.name):
-                found[int(match[1])] = path
-    return dict(sorted(found.items()))
+    places = [each for each in (folder, folder / "Output") if each.is_dir()]
+    matches = {path: _MASS.match(path.name) for place in places for path in place.iterdir()}
+    return dict(sorted((int(match[1]), path) for path, match in matches.items() if match))
 
 
 def _folders(paths: list[Path]) -> list[Path]:

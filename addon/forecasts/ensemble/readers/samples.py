@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +26,12 @@ from numpy.typing import NDArray
 
 from ....errors import input_error, reading
 from ....files import check_text_size
-from ....run.models import from_arrival_time, netcdf, raster, zarr_store
+from ....run.models import netcdf, raster, zarr_store
 from ....run.models.grid import Grid
 from ....run.models.model import LONGEST, Options
 from .. import write
-from ..manifest import Manifest, Member
-from ..member_set import MemberSet
+from ..manifest import Member
+from ..member_set import MemberSet, describe
 
 NAME, ORDER = "samples described in a TOML file ([samples])", 10
 
@@ -83,18 +83,11 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
         raise input_error(told, "has no data next to it; give the file of the array too")
     count, shape, get = _open(said, data)
     last = float(said.times[-1]) if said.times.size else 0.0
-    head = Manifest(
-        name=options.name or told.stem,
-        model=said.model,
-        issued=from_arrival_time.begun(options, told),
-        horizon=horizon or last,
-        members=(),
-        perturbed=said.perturbed,
-        zone=options.zone,
-        source=f"{count} samples of {data[0].name}",
-    )
-    if not head.horizon:
+    if not (horizon or last):
         raise input_error(told, "gives no end of the forecast; add --horizon HOURS")
+    source = f"{count} samples of {data[0].name}"
+    head, _ = describe(options, told, said.model, horizon or last, source)
+    head = replace(head, name=options.name or told.stem, perturbed=said.perturbed)
     note = "arrival times are as given"
     if said.quantity == "burned":
         note = f"a cell has burned from the first time at which its value is {said.threshold:g} or more"

@@ -8,6 +8,7 @@ members of equal weight.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -22,8 +23,8 @@ from ....run.models.model import Options
 from ....run.observations import kml
 from ....run.observations.feature import Feature, Polygon
 from .. import write
-from ..manifest import Manifest, Member
-from ..member_set import MemberSet
+from ..manifest import Member
+from ..member_set import MemberSet, attempt, describe
 from .files_in import files_in
 
 NAME, ORDER = "W.I.S.E. or Prometheus scenarios in KML", 80
@@ -43,46 +44,36 @@ def sniff(paths: list[Path]) -> bool:
 def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     """Read one member for each file."""
     files = [path for path in files_in(paths) if _is_scenario(path)]
-    found: list[tuple[str, Perimeters | InputError]] = []
-    for path in files:
-        try:
-            found.append(_scenario(path))
-        except InputError as error:
-            found.append((path.stem, error))
-    dated = [dates for _, dates in found if not isinstance(dates, InputError)]
+    scenarios = [(path, attempt(_scenario, path)) for path in files]
+    dated = [each[1] for _, each in scenarios if not isinstance(each, InputError)]
     if not dated:
-        raise input_error(files[0], f"none of {len(files)} scenarios can be read; {found[0][1]}")
+        raise input_error(files[0], f"none of {len(files)} scenarios can be read; {scenarios[0][1]}")
     issued = min(dates[0][0] for dates in dated)
     last = max(dates[-1][0] for dates in dated)
     latitude, longitude, side = _axes(dated)
-    head = Manifest(
-        name=options.name or files[0].parent.name,
-        model="W.I.S.E. or Prometheus",
-        issued=issued,
-        horizon=horizon or (last - issued).total_seconds(),
-        members=(),
-        zone=options.zone,
-        source=f"{len(files)} scenarios in KML",
-        kind="scenarios",
-    )
+    source = f"{len(files)} scenarios in KML"
+    horizon = horizon or (last - issued).total_seconds()
+    head, _ = describe(replace(options, start=issued), files[0], "W.I.S.E. or Prometheus", horizon, source)
+    head = replace(head, kind="scenarios")
     notes = [
         f"cells have {side:.0f} m; each arrives in the middle between two perimeters",
         "issue time is the first perimeter",
     ]
-    members = _members(found, issued, latitude, longitude)
+    members = _members(scenarios, issued, latitude, longitude)
     return MemberSet(head, Grid(latitude, longitude), members, notes)
 
 
 def _members(
-    found: list[tuple[str, Perimeters | InputError]],
+    scenarios: list[tuple[Path, tuple[str, Perimeters] | InputError]],
     issued: datetime,
     latitude: NDArray[np.float64],
     longitude: NDArray[np.float64],
 ) -> Iterator[write.Read]:
-    for name, dates in found:
-        if isinstance(dates, InputError):
-            yield Member(name), dates
+    for path, read in scenarios:
+        if isinstance(read, InputError):
+            yield Member(path.stem), read
             continue
+        name, dates = read
         arrival = np.full((len(latitude), len(longitude)), np.inf)
         before = None
         for moment, polygons in dates:

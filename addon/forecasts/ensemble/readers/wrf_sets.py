@@ -6,8 +6,10 @@ does not mean unburned: the member ends at its last time with values.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from functools import partial
 from pathlib import Path
@@ -20,8 +22,8 @@ from ....run.models import arrival, from_arrival_time, netcdf
 from ....run.models.grid import Grid
 from ....run.models.model import Options
 from .. import write
-from ..manifest import Manifest, Member
-from ..member_set import MemberSet
+from ..manifest import Member
+from ..member_set import MemberSet, burned, describe
 from .files_in import files_in
 
 NAME, ORDER = "WRF-SFIRE sets", 70
@@ -50,35 +52,25 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     if (np.diff(seconds) <= 0.0).any():
         raise file.error("its times do not ascend")
     grid = Grid(_place(file, "FXLAT", shape), _place(file, "FXLONG", shape))
-    head = Manifest(
-        name=options.name or path.stem,
-        model="WRF-SFIRE",
-        issued=moments[0],
-        horizon=horizon or float(seconds[-1]),
-        members=(),
-        zone=options.zone,
-        source=f"{shape[0]} members of {path.name}",
-    )
+    source = f"{shape[0]} members of {path.name}"
+    started = replace(options, start=moments[0])
+    head, _ = describe(started, path, "WRF-SFIRE", horizon or float(seconds[-1]), source)
+    head = replace(head, name=options.name or path.stem)
     notes = [said, "a cell arrives when half of it has burned, linear between two times"]
-    return MemberSet(head, grid, _members(file, shape, seconds), notes)
+    return MemberSet(head, grid, burned(_members(file, shape, seconds), math.inf), notes)
 
 
 def _members(file: netcdf.File, shape: tuple[int, ...], seconds: NDArray[np.float64]) -> Iterator[write.Read]:
     names = _names(file, shape[0])
     for index, name in enumerate(names):
-        known = [not np.isnan(file.read(_AREA, index, time)).all() for time in range(shape[1])]
-        count = known.index(False) if False in known else len(known)
+        filled = [not np.isnan(file.read(_AREA, index, time)).all() for time in range(shape[1])]
+        count = [*filled, False].index(False)
         member = Member(name, end=float(seconds[count - 1]) if count else 0.0)
-        if count == 0 or any(known[count:]):
-            yield (
-                member,
-                "has no values" if count == 0 else f"has values again after a gap at time {count + 1}",
-            )
-            continue
-        share = partial(file.read, _AREA, index)
-        times = arrival.from_share(seconds[:count], share, shape[2:])
-        burned = np.where(np.isnan(times), np.inf, times).astype(np.float32)
-        yield member, burned if np.isfinite(burned).any() else "nothing burns"
+        if count and not any(filled[count:]):
+            yield member, arrival.from_share(seconds[:count], partial(file.read, _AREA, index), shape[2:])
+        else:
+            reason = f"has values again after a gap at time {count + 1}" if count else "has no values"
+            yield member, reason
     file.close()
 
 
