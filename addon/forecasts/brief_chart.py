@@ -51,12 +51,12 @@ def dots(arrival: NDArray[np.float64], arrivals: PlaceArrivals, name: str, zone:
     return _svg(width, height, label, shapes, "dots")
 
 
-def outlines(found: Forecast, points: Sequence[Any], mark: str, usual: Units) -> str:
+def outlines(forecast: Forecast, points: Sequence[Any], mark: str, usual: Units) -> str:
     """Draw the members' burned areas at the end of the forecast, points with their names, and a mark."""
-    whole = found.ensemble
+    whole = forecast.ensemble
     counted = np.flatnonzero(whole.counted(whole.horizon))
     burned = np.stack([whole.arrival(int(index)) <= whole.horizon for index in counted])
-    order = np.argsort(-found.depth, kind="stable")
+    order = np.argsort(-forecast.depth, kind="stable")
     half = burned[order[: (len(order) + 1) // 2]]
     place = _Place(whole, burned.any(0))
     shapes = [
@@ -66,11 +66,11 @@ def outlines(found: Forecast, points: Sequence[Any], mark: str, usual: Units) ->
     shapes += [
         f'<path class="other" d="{place.path(each)}"/>'
         for index, each in enumerate(burned)
-        if index not in (found.typical, found.outlier)
+        if index not in (forecast.typical, forecast.outlier)
     ]
-    shapes.append(f'<path class="outlier" d="{place.path(burned[found.outlier])}"/>')
-    shapes.append(f'<path class="typical" d="{place.path(burned[found.typical])}"/>')
-    before = whole.arrival(int(counted[found.typical])) <= 0.0
+    shapes.append(f'<path class="outlier" d="{place.path(burned[forecast.outlier])}"/>')
+    shapes.append(f'<path class="typical" d="{place.path(burned[forecast.typical])}"/>')
+    before = whole.arrival(int(counted[forecast.typical])) <= 0.0
     if before.any():
         shapes.append(f'<path class="before" fill-rule="evenodd" d="{place.path(before)}"/>')
     shapes += place.scale()
@@ -81,8 +81,8 @@ def outlines(found: Forecast, points: Sequence[Any], mark: str, usual: Units) ->
     areas = [float(whole.areas[part].sum()) for part in (burned.all(0), burned.any(0))]
     both, some = (area(each, usual) for each in areas)
     label = (
-        f"Outlines of {found.count} members at the end of the forecast, north at the top. All of them burn "
-        f"{both}, and at least one of them {some}. The table below lists the members."
+        f"Outlines of {forecast.count} members at the end of the forecast, north at the top. All of them "
+        f"burn {both}, and at least one of them {some}. The table below lists the members."
     )
     return f"<figure>{_svg(round(_MAP), round(place.height), label, shapes, 'curve outlines')}</figure>"
 
@@ -141,12 +141,12 @@ def _thinned(points: Iterable[tuple[float, float]]) -> list[tuple[float, float]]
     return kept
 
 
-def fan(found: Forecast, zone: str, unit: Measure) -> str:
+def fan(forecast: Forecast, zone: str, unit: Measure) -> str:
     """Draw the burned area by time: all members, the middle half, the median, and the typical member."""
-    issued = found.ensemble.issued
-    when = [issued + timedelta(seconds=float(moment)) for moment in found.moments]
-    place = area_chart.Axes(when[0], when[-1], max(float(found.areas.max()) * 1.06, 1.0))
-    low, quarter, middle, upper, high = np.quantile(found.areas, QUARTERS, axis=0)
+    issued = forecast.ensemble.issued
+    when = [issued + timedelta(seconds=float(moment)) for moment in forecast.moments]
+    place = area_chart.Axes(when[0], when[-1], max(float(forecast.areas.max()) * 1.06, 1.0))
+    low, quarter, middle, upper, high = np.quantile(forecast.areas, QUARTERS, axis=0)
 
     def trace(values: NDArray[np.float64]) -> list[str]:
         return [f"{place.x(at)},{place.y(float(value))}" for at, value in zip(when, values, strict=True)]
@@ -163,7 +163,7 @@ def fan(found: Forecast, zone: str, unit: Measure) -> str:
         f'<polygon class="band" points="{between(low, high)}"/>',
         f'<polygon class="band" points="{between(quarter, upper)}"/>',
         f'<polyline class="median" points="{line(middle)}"/>',
-        f'<polyline class="typical" points="{line(found.areas[found.typical])}"/>',
+        f'<polyline class="typical" points="{line(forecast.areas[forecast.typical])}"/>',
     ]
     label = (
         "Burned area of the members by time. At the end, the smallest, the median and the largest have "

@@ -75,15 +75,15 @@ def gather(folder: Path, latitude: Sequence[float], longitude: Sequence[float]) 
     InputError
         It is damaged, or not a forecast of one fire.
     """
-    found = place_arrivals.open_forecast(folder, "the page")
-    arrivals = place_arrivals.sample(found, latitude, longitude)
-    moments = np.linspace(0.0, found.horizon, _TIMES)
-    chosen, counted = choice.choose(found), arrivals.members
+    forecast = place_arrivals.open_forecast(folder, "the page")
+    arrivals = place_arrivals.sample(forecast, latitude, longitude)
+    moments = np.linspace(0.0, forecast.horizon, _TIMES)
+    chosen, counted = choice.choose(forecast), arrivals.members
     order = counted.tolist()
-    likeness = choice.jaccard(statistics.overlaps(found, found.horizon))[np.ix_(counted, counted)]
+    likeness = choice.jaccard(statistics.overlaps(forecast, forecast.horizon))[np.ix_(counted, counted)]
     return Forecast(
-        found, arrivals, [found.members[index].name for index in order], moments,
-        statistics.burned_areas(found, moments)[counted],
+        forecast, arrivals, [forecast.members[index].name for index in order], moments,
+        statistics.burned_areas(forecast, moments)[counted],
         order.index(chosen.typical), order.index(chosen.outlier), chosen.depth[counted],
         groups.split(1.0 - likeness),
     )  # fmt: skip
@@ -92,27 +92,27 @@ def gather(folder: Path, latitude: Sequence[float], longitude: Sequence[float]) 
 def add(briefing: Any, folder: Path) -> Any:
     """Add the section of an ensemble to a briefing (see `brief.briefing.Briefing`)."""
     points = briefing.points
-    found = gather(folder, [each.latitude for each in points], [each.longitude for each in points])
-    told = describe.sentence(found.ensemble.manifest)
-    sections = (*briefing.sections, section(briefing, found))
+    forecast = gather(folder, [each.latitude for each in points], [each.longitude for each in points])
+    told = describe.sentence(forecast.ensemble.manifest)
+    sections = (*briefing.sections, section(briefing, forecast))
     return replace(briefing, sections=sections, sentences=(*briefing.sentences, told))
 
 
-def section(briefing: Any, found: Forecast) -> str:
+def section(briefing: Any, forecast: Forecast) -> str:
     """Build the section."""
-    inner = "\n".join(_section(briefing, found))
+    inner = "\n".join(_section(briefing, forecast))
     return (
         '<section aria-labelledby="forecast-title"><h2 id="forecast-title">How sure the forecast is</h2>\n'
         f"{inner}\n</section>"
     )
 
 
-def _section(briefing: Any, found: Forecast) -> Iterator[str]:
-    yield from _head(briefing, found)
-    yield from _outcomes(briefing, found)
-    yield from _places(briefing, found)
-    yield from _map(briefing, found)
-    yield from _growth(briefing, found)
+def _section(briefing: Any, forecast: Forecast) -> Iterator[str]:
+    yield from _head(briefing, forecast)
+    yield from _outcomes(briefing, forecast)
+    yield from _places(briefing, forecast)
+    yield from _map(briefing, forecast)
+    yield from _growth(briefing, forecast)
     yield (
         "<p class='soft' id='typical-note'>* The typical member is the deepest by epsilon inclusion depth "
         "(Chaves-de-Plaza et al., 2024): many others contain its final burned area, and it contains many "
@@ -120,16 +120,16 @@ def _section(briefing: Any, found: Forecast) -> Iterator[str]:
     )
 
 
-def _head(briefing: Any, found: Forecast) -> Iterator[str]:
+def _head(briefing: Any, forecast: Forecast) -> Iterator[str]:
     """Name issue time, age, members and inputs."""
-    told, zone = found.ensemble.manifest, briefing.zone
-    issued = times.text(found.ensemble.issued, zone)
-    last = times.text(found.ensemble.valid(found.ensemble.horizon), zone)
+    told, zone = forecast.ensemble.manifest, briefing.zone
+    issued = times.text(forecast.ensemble.issued, zone)
+    last = times.text(forecast.ensemble.valid(forecast.ensemble.horizon), zone)
     prepared = briefing.sheet.prepared or datetime.now(UTC)
-    age = times.age((prepared - found.ensemble.issued).total_seconds())
+    age = times.age((prepared - forecast.ensemble.issued).total_seconds())
     yield (
         f'<p class="issued">Issued {quote(issued)}, valid until {quote(last)}<br>'
-        f"{age} old when this page was made; {found.count} of {found.total} members</p>"
+        f"{age} old when this page was made; {forecast.count} of {forecast.total} members</p>"
     )
     if told.synthetic and not briefing.run.synthetic:
         yield '<p class="warn"><b>These members are synthetic</b>, not the output of a fire model.</p>'
@@ -139,28 +139,28 @@ def _head(briefing: Any, found: Forecast) -> Iterator[str]:
         f"Members differ in: {quote(differ)}. Common to all: {quote(common)}. "
         "An error in a common input is in all members.</p>"
     )
-    if note := found.arrivals.weights_note():
+    if note := forecast.arrivals.weights_note():
         yield f"<p>{note}</p>"
-    for each in found.ensemble.left_out:
+    for each in forecast.ensemble.left_out:
         yield f"<p class='soft'>Left out: member {quote(each.name)}: {quote(each.reason)}.</p>"
 
 
-def _outcomes(briefing: Any, found: Forecast) -> Iterator[str]:
+def _outcomes(briefing: Any, forecast: Forecast) -> Iterator[str]:
     """Give the range of burned area, and two outcomes if members are in two groups."""
-    unit, end = AREA[briefing.units], found.arrivals.end(briefing.zone)
-    area = found.areas[:, -1]
+    unit, end = AREA[briefing.units], forecast.arrivals.end(briefing.zone)
+    area = forecast.areas[:, -1]
     low, middle, high = (unit.format(float(np.quantile(area, q))) for q in (0.0, 0.5, 1.0))
     yield (
         f"<p><b>Burned by {quote(end)}:</b> {low} to {high} {unit.name}; half of the members burn less than "
         f"{middle}.</p>"
     )
-    if found.second is None:
+    if forecast.second is None:
         return
-    parts = [area[found.second == group] for group in (False, True)]
+    parts = [area[forecast.second == group] for group in (False, True)]
     parts.sort(key=lambda part: float(np.median(part)))
     words = [
-        f"{len(part)} of {found.count} members burn {unit.format(part.min())} to {unit.format(part.max())} "
-        f"{unit.name}"
+        f"{len(part)} of {forecast.count} members burn {unit.format(part.min())} to "
+        f"{unit.format(part.max())} {unit.name}"
         for part in parts
     ]
     yield (
@@ -169,11 +169,11 @@ def _outcomes(briefing: Any, found: Forecast) -> Iterator[str]:
     )
 
 
-def _map(briefing: Any, found: Forecast) -> Iterator[str]:
+def _map(briefing: Any, forecast: Forecast) -> Iterator[str]:
     """Draw the outlines of the members, with a table of them."""
-    mark = "SYNTHETIC" if found.ensemble.manifest.synthetic else ""
-    typical, outlier = (quote(found.names[index]) for index in (found.typical, found.outlier))
-    yield f"<h3>Burned area of each member on {quote(found.arrivals.end(briefing.zone))}</h3>"
+    mark = "SYNTHETIC" if forecast.ensemble.manifest.synthetic else ""
+    typical, outlier = (quote(forecast.names[index]) for index in (forecast.typical, forecast.outlier))
+    yield f"<h3>Burned area of each member on {quote(forecast.arrivals.end(briefing.zone))}</h3>"
     yield (
         '<div class="key"><span><i class="line thick"></i>member '
         f'{typical}, the typical one<a href="#typical-note">*</a></span><span><i class="line dashed"></i>'
@@ -182,41 +182,44 @@ def _map(briefing: Any, found: Forecast) -> Iterator[str]:
         '<span><i class="band"></i>by some of them</span>'
         '<span><i class="before"></i>burned before the issue time</span></div>'
     )
-    yield brief_chart.outlines(found, reached(briefing, found), mark, briefing.units)
+    yield brief_chart.outlines(forecast, reached(briefing, forecast), mark, briefing.units)
     yield (
         "<p class='soft'>North is at the top. Ground outside of all outlines may burn later, or in a fire "
         "that differs from all members.</p>"
     )
     unit = AREA[briefing.units]
     rows = [
-        (name, unit.format(float(found.areas[index, -1])), ", ".join(_roles(found, index)))
-        for index, name in enumerate(found.names)
+        (name, unit.format(float(forecast.areas[index, -1])), ", ".join(_roles(forecast, index)))
+        for index, name in enumerate(forecast.names)
     ]
     yield _table("Members as a table", ("member", f"burned area at the end, {unit.name}", "role"), rows)
 
 
-def _roles(found: Forecast, index: int) -> list[str]:
-    area = found.areas[:, -1]
-    each = found.typical, found.outlier, int(area.argmin()), int(area.argmax())
+def _roles(forecast: Forecast, index: int) -> list[str]:
+    area = forecast.areas[:, -1]
+    each = forecast.typical, forecast.outlier, int(area.argmin()), int(area.argmax())
     names = "typical", "outlier", "smallest", "largest"
     return [role for role, member in zip(names, each, strict=True) if member == index]
 
 
-def _growth(briefing: Any, found: Forecast) -> Iterator[str]:
+def _growth(briefing: Any, forecast: Forecast) -> Iterator[str]:
     """Draw the burned area by time, with a table."""
     unit = AREA[briefing.units]
     yield "<h3>Burned area by time</h3>"
     yield (
         '<div class="key"><span><i class="line blue"></i>median</span><span><i class="line thick"></i>member '
-        f'{quote(found.names[found.typical])}, the typical one</span><span><i class="band both"></i>middle '
-        'half of the members</span><span><i class="band"></i>all members</span></div>'
+        f'{quote(forecast.names[forecast.typical])}, the typical one</span><span><i class="band both"></i>'
+        'middle half of the members</span><span><i class="band"></i>all members</span></div>'
     )
-    yield brief_chart.fan(found, briefing.zone, unit)
-    picks = np.linspace(0, len(found.moments) - 1, _ROWS + 1).round().astype(int)
+    yield brief_chart.fan(forecast, briefing.zone, unit)
+    picks = np.linspace(0, len(forecast.moments) - 1, _ROWS + 1).round().astype(int)
     rows = [
         (
-            found.arrivals.clock(float(found.moments[at]), briefing.zone),
-            *(unit.format(float(value)) for value in np.quantile(found.areas[:, at], brief_chart.QUARTERS)),
+            forecast.arrivals.clock(float(forecast.moments[at]), briefing.zone),
+            *(
+                unit.format(float(value))
+                for value in np.quantile(forecast.areas[:, at], brief_chart.QUARTERS)
+            ),
         )
         for at in picks
     ]
@@ -234,14 +237,14 @@ def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> s
     )
 
 
-def reached(briefing: Any, found: Forecast) -> list[Any]:
+def reached(briefing: Any, forecast: Forecast) -> list[Any]:
     """List the points that the fire reaches in any member."""
-    return [point for point, here in zip(briefing.points, found.arrivals.reached, strict=True) if here]
+    return [point for point, here in zip(briefing.points, forecast.arrivals.reached, strict=True) if here]
 
 
-def _places(briefing: Any, found: Forecast) -> Iterator[str]:
+def _places(briefing: Any, forecast: Forecast) -> Iterator[str]:
     """Build a table of places that any member burns, and name the others."""
-    arrivals, zone = found.arrivals, briefing.zone
+    arrivals, zone = forecast.arrivals, briefing.zone
     end = quote(arrivals.end(zone))
     rows, near, never = [], [], []
     for index, point in enumerate(briefing.points):
@@ -272,21 +275,21 @@ def _places(briefing: Any, found: Forecast) -> Iterator[str]:
 
 
 def _row(point: Any, index: int, arrivals: PlaceArrivals, zone: str) -> str:
-    known = arrivals.known(index)
+    arrival = arrivals.known(index)
     cells = "".join(f"<td>{quote(arrivals.by_text(index, share, zone))}</td>" for share in SHARES)
-    never = int(np.isinf(known).sum())
-    missing = f", {arrivals.count - len(known)} not simulated" if len(known) < arrivals.count else ""
-    dots = brief_chart.dots(known, arrivals, point.name, zone)
+    never = int(np.isinf(arrival).sum())
+    missing = f", {arrivals.count - len(arrival)} not simulated" if len(arrival) < arrivals.count else ""
+    dots = brief_chart.dots(arrival, arrivals, point.name, zone)
     return (
         f'<tr><td class="text">{quote(point.name)}</td>{cells}'
-        f"<td>{never} of {len(known)}{missing}</td>"
-        f'<td class="text">{dots}{_two(known, arrivals, zone)}</td></tr>\n'
+        f"<td>{never} of {len(arrival)}{missing}</td>"
+        f'<td class="text">{dots}{_two(arrival, arrivals, zone)}</td></tr>\n'
     )
 
 
-def _two(known: NDArray[np.float64], arrivals: PlaceArrivals, zone: str) -> str:
+def _two(arrival: NDArray[np.float64], arrivals: PlaceArrivals, zone: str) -> str:
     """Name two groups of arrival times, as their median may be in neither."""
-    times = known[np.isfinite(known)]
+    times = arrival[np.isfinite(arrival)]
     second = groups.split_values(times)
     if second is None:
         return ""

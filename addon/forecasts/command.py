@@ -30,14 +30,14 @@ def _of_ensemble(run: Callable[[Ensemble, argparse.Namespace], None]) -> Callabl
     return start
 
 
-def _info(found: Ensemble, arguments: argparse.Namespace) -> None:
+def _info(ensemble: Ensemble, arguments: argparse.Namespace) -> None:
     from .ensemble import summary
 
-    facts = summary.gather(found)
+    facts = summary.gather(ensemble)
     result(json.dumps(facts, indent=1) if arguments.json else summary.page(facts))
 
 
-def _cite(found: Ensemble, arguments: argparse.Namespace) -> None:
+def _cite(ensemble: Ensemble, arguments: argparse.Namespace) -> None:
     from ..errors import UsageError
     from ..run import citations
     from .ensemble import describe
@@ -46,10 +46,10 @@ def _cite(found: Ensemble, arguments: argparse.Namespace) -> None:
         raise UsageError("--license: is of --crate; name the folder of the film")
     if arguments.crate:
         raise UsageError(f"--crate: {arguments.run} is not a scene file; name the scene file of the film")
-    citations.show(describe.sources(found), arguments.json)
+    citations.show(describe.sources(ensemble), arguments.json)
 
 
-def _score(found: Ensemble, arguments: argparse.Namespace) -> None:
+def _score(ensemble: Ensemble, arguments: argparse.Namespace) -> None:
     """Compare an ensemble with observed perimeters."""
     from ..errors import UsageError
     from ..run import observations, zone
@@ -60,8 +60,8 @@ def _score(found: Ensemble, arguments: argparse.Namespace) -> None:
         raise UsageError("--report: is of runs alone; use --json for the scores of an ensemble")
     if not named or not all(observations.is_one(each) for each in named):
         raise UsageError("--against: name files of observed perimeters")
-    clock = found.manifest.zone or zone.of_longitude(float(found.longitude.mean()))
-    results = member_scores.score(found, observations.read(named), clock)
+    clock = ensemble.manifest.zone or zone.of_longitude(float(ensemble.longitude.mean()))
+    results = member_scores.score(ensemble, observations.read(named), clock)
     result(json.dumps(results, indent=1) if arguments.json else member_scores.page(results))
 
 
@@ -140,8 +140,8 @@ def _amend_resources(arguments: argparse.Namespace, answer: Any) -> Any:
 
     if not arguments.ensemble:
         return answer
-    found = place_arrivals.open_forecast(arguments.ensemble, "the list")
-    members = MemberArrivals.at(found, [each.station for each in answer.matches], answer.run)
+    ensemble = place_arrivals.open_forecast(arguments.ensemble, "the list")
+    members = MemberArrivals.at(ensemble, [each.station for each in answer.matches], answer.run)
     return replace(answer, further=(*answer.further, members))
 
 

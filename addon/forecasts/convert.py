@@ -65,16 +65,16 @@ def in_process(
     start, at, projection, horizon, name, zone = options
     with reading(files[0]):
         if len(files) == 1 and gather.sniff(files[0]):
-            made, notes = gather.convert(files[0], out, horizon), []
+            manifest, notes = gather.convert(files[0], out, horizon), []
         else:
             said = Options.of(start, at, projection, 0.0, [], name, zone)
-            found = readers.read(files, said, horizon)
-            made, notes = member_set.save(found, out, files[0]), found.notes
-    total, issued = len(made.members) + len(made.left_out), ""
-    if made.issued:
-        issued = f" after {made.issued:%Y-%m-%d %H:%M} UTC"
-    tell(f"{len(made.members)} of {total} members, up to {made.horizon / 3600.0:.4g} h{issued}")
-    for each in made.left_out:
+            members = readers.read(files, said, horizon)
+            manifest, notes = member_set.save(members, out, files[0]), members.notes
+    total, issued = len(manifest.members) + len(manifest.left_out), ""
+    if manifest.issued:
+        issued = f" after {manifest.issued:%Y-%m-%d %H:%M} UTC"
+    tell(f"{len(manifest.members)} of {total} members, up to {manifest.horizon / 3600.0:.4g} h{issued}")
+    for each in manifest.left_out:
         tell(f"left out: {each.name}: {each.reason}")
     for text in filter(None, notes):
         tell(text)

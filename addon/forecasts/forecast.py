@@ -46,57 +46,59 @@ def of(settings: Settings) -> Ensemble:
 
 def member_of(settings: Settings, run: Run, first: bool) -> int:
     """Find the member that a run shows: the setting's for the first run, else the most similar one."""
-    found = of(settings)
-    return set_member(settings, found) if first else most_similar(found, run)[0]
+    forecast = of(settings)
+    return set_member(settings, forecast) if first else most_similar(forecast, run)[0]
 
 
-def others(found: Ensemble, shown: int, lines: int) -> list[int]:
+def others(forecast: Ensemble, shown: int, lines: int) -> list[int]:
     """Choose the other members whose fronts are drawn: nearly the same for each shown member."""
     if not lines:
         return []
-    return [member for member in _representatives(found, lines + 1) if member != shown][:lines]
+    return [member for member in _representatives(forecast, lines + 1) if member != shown][:lines]
 
 
-def roles(found: Ensemble, member: int) -> list[str]:
+def roles(forecast: Ensemble, member: int) -> list[str]:
     """List the roles of a member: typical, smallest, largest, outlier."""
-    chosen = _chosen(found)
+    chosen = _chosen(forecast)
     return [role for role in ("typical", "smallest", "largest", "outlier") if getattr(chosen, role) == member]
 
 
-def outlier(found: Ensemble) -> int:
+def outlier(forecast: Ensemble) -> int:
     """Return the least deep member."""
-    return _chosen(found).outlier
+    return _chosen(forecast).outlier
 
 
-def agreement(found: Ensemble, member: int, run: Run) -> Agreement:
+def agreement(forecast: Ensemble, member: int, run: Run) -> Agreement:
     """Compare burned areas at the last time that run, member and forecast have in common."""
-    shift = times.seconds(run, found.issued)
-    end = min(found.members[member].end, found.horizon, float(run.times[-1]) - shift)
-    theirs = found.arrival(member)
-    mine = _burned(found, run, end + shift)
-    known = np.isfinite(mine) & ~np.isnan(theirs)
-    here, there, area = known & (mine == 1.0), known & (theirs <= end), found.areas
+    shift = times.seconds(run, forecast.issued)
+    end = min(forecast.members[member].end, forecast.horizon, float(run.times[-1]) - shift)
+    theirs = forecast.arrival(member)
+    mine = _burned(forecast, run, end + shift)
+    simulated = np.isfinite(mine) & ~np.isnan(theirs)
+    here, there, area = simulated & (mine == 1.0), simulated & (theirs <= end), forecast.areas
     either = float(area[here | there].sum())
     apart = (here & ~dilate(there, 1, False)) | (there & ~dilate(here, 1, False))
     return Agreement(1.0 - float(area[apart].sum()) / either if either else 1.0, end)
 
 
-def _burned(found: Ensemble, run: Run, time: float) -> NDArray[np.float64]:
+def _burned(forecast: Ensemble, run: Run, time: float) -> NDArray[np.float64]:
     """Find the state of the ensemble's cells (ny, nx) in a run: 1 burned, 0 not, NaN outside of the run."""
     middle = 0.5 * float(run.longitude[0] + run.longitude[-1])
-    latitude, longitude = np.meshgrid(found.latitude, areas.turned(found.longitude, middle), indexing="ij")
+    latitude, longitude = np.meshgrid(
+        forecast.latitude, areas.turned(forecast.longitude, middle), indexing="ij"
+    )
     return front.reach(run).burned(latitude, longitude, time)
 
 
 @functools.lru_cache(maxsize=8)
-def most_similar(found: Ensemble, run: Run) -> tuple[int, Agreement]:
+def most_similar(forecast: Ensemble, run: Run) -> tuple[int, Agreement]:
     """Find the member that agrees best with a run."""
-    every = [agreement(found, member, run) for member in range(len(found.members))]
+    every = [agreement(forecast, member, run) for member in range(len(forecast.members))]
     best = max(range(len(every)), key=lambda member: every[member].share)
     return best, every[best]
 
 
-def set_member(settings: Settings, found: Ensemble) -> int:
+def set_member(settings: Settings, forecast: Ensemble) -> int:
     """Look up `forecast.member`, or the typical one.
 
     Raises
@@ -104,9 +106,9 @@ def set_member(settings: Settings, found: Ensemble) -> int:
     InputError
         There is no such member.
     """
-    name, names = settings.forecast.member, [member.name for member in found.members]
+    name, names = settings.forecast.member, [member.name for member in forecast.members]
     if not name:
-        return _chosen(found).typical
+        return _chosen(forecast).typical
     if name in names:
         return names.index(name)
     listed = ", ".join(names[:8]) + (", ..." if len(names) > 8 else "")
@@ -135,10 +137,10 @@ def _open(path: Path, _stamps: tuple[tuple[int, ...], ...]) -> Ensemble:
 
 
 @functools.lru_cache(maxsize=_CACHED)
-def _chosen(found: Ensemble) -> choice.Choice:
-    return choice.choose(found)
+def _chosen(forecast: Ensemble) -> choice.Choice:
+    return choice.choose(forecast)
 
 
 @functools.lru_cache(maxsize=8)
-def _representatives(found: Ensemble, count: int) -> tuple[int, ...]:
-    return tuple(choice.representatives(found, count))
+def _representatives(forecast: Ensemble, count: int) -> tuple[int, ...]:
+    return tuple(choice.representatives(forecast, count))

@@ -25,7 +25,7 @@ MARGIN = 2000.0  # m around all members and perimeters: cells beyond count as ag
 WINDOWS = 1, 3, 5, 9, 17, 33  # cells
 
 
-def score(found: Ensemble, observations: Observations, zone: str = "UTC") -> dict[str, Any]:
+def score(ensemble: Ensemble, observations: Observations, zone: str = "UTC") -> dict[str, Any]:
     """Compute the scores of an ensemble as JSON data: m, m2, s, and fractions from 0 to 1.
 
     Scores use the members that reach the horizon, with equal weights, in the cells within MARGIN of any
@@ -39,26 +39,26 @@ def score(found: Ensemble, observations: Observations, zone: str = "UTC") -> dic
         The ensemble is not a forecast of one fire, or no perimeter is within its times.
     """
     shapes.needed()
-    if found.manifest.kind != "forecast":
+    if ensemble.manifest.kind != "forecast":
         raise Error(
-            f"{found.path}: holds {KINDS[found.manifest.kind]}; scores of probabilities need a forecast"
+            f"{ensemble.path}: holds {KINDS[ensemble.manifest.kind]}; scores of probabilities need a forecast"
         )
-    grid = ScoreGrid(found.latitude, found.longitude, np.empty(found.shape[1:]))
-    moments, masks, used = _observed(found, observations, grid)
-    counted = found.counted(found.horizon)
-    arrival = np.stack([found.arrival(int(index)) for index in np.flatnonzero(counted)])
+    grid = ScoreGrid(ensemble.latitude, ensemble.longitude, np.empty(ensemble.shape[1:]))
+    moments, masks, used = _observed(ensemble, observations, grid)
+    counted = ensemble.counted(ensemble.horizon)
+    arrival = np.stack([ensemble.arrival(int(index)) for index in np.flatnonzero(counted)])
     domain = _domain(arrival, masks, grid)
-    deepest = int(np.nanargmax(depths(found, found.horizon)[counted]))
-    names = [member.name for member, each in zip(found.members, counted, strict=True) if each]
+    deepest = int(np.nanargmax(depths(ensemble, ensemble.horizon)[counted]))
+    names = [member.name for member, each in zip(ensemble.members, counted, strict=True) if each]
     return {
         "ensemble": {
-            "name": found.manifest.name,
-            "path": str(found.path),
-            "synthetic": found.manifest.synthetic,
-            "issued": times.iso(found.issued),
-            "horizon": found.horizon,
+            "name": ensemble.manifest.name,
+            "path": str(ensemble.path),
+            "synthetic": ensemble.manifest.synthetic,
+            "issued": times.iso(ensemble.issued),
+            "horizon": ensemble.horizon,
             "members": len(names),
-            "of": len(found.members) + len(found.left_out),
+            "of": len(ensemble.members) + len(ensemble.left_out),
             "deepest": names[deepest],
         },
         "against": used,
@@ -71,7 +71,7 @@ def score(found: Ensemble, observations: Observations, zone: str = "UTC") -> dic
         },
         "arrival": _arrival(arrival, masks, moments, domain, grid),
         "dates": [
-            _date(found, arrival, mask, moment, domain, grid, names, deepest)
+            _date(ensemble, arrival, mask, moment, domain, grid, names, deepest)
             for moment, mask in zip(moments, masks, strict=True)
         ],
         "assumptions": list(observations.assumptions),
@@ -79,15 +79,15 @@ def score(found: Ensemble, observations: Observations, zone: str = "UTC") -> dic
 
 
 def _observed(
-    found: Ensemble, observations: Observations, grid: ScoreGrid
+    ensemble: Ensemble, observations: Observations, grid: ScoreGrid
 ) -> tuple[list[float], list[NDArray[np.bool_]], list[dict[str, Any]]]:
     """Return times (s since the issue time) and masks of perimeters in the forecast, and all uses."""
     moments, masks, used = [], [], []
     for perimeter in observations.perimeters:
-        time = (perimeter.time - found.issued).total_seconds()
+        time = (perimeter.time - ensemble.issued).total_seconds()
         mask = grid.inside(shapes.of_perimeter(perimeter, grid.middle))
         use = "used"
-        if not 0.0 < time <= found.horizon:
+        if not 0.0 < time <= ensemble.horizon:
             use = "before the forecast" if time <= 0.0 else "after the forecast"
         elif not mask.any():
             use = "outside of the grid"
@@ -97,8 +97,8 @@ def _observed(
         used.append({"source": perimeter.source, "time": times.iso(perimeter.time), "use": use})
     if not moments:
         raise Error(
-            f"{found.path}: no perimeter is within its grid and its {found.horizon / 3600.0:.4g} h "
-            f"from {times.iso(found.issued)}; give perimeters of this time"
+            f"{ensemble.path}: no perimeter is within its grid and its {ensemble.horizon / 3600.0:.4g} h "
+            f"from {times.iso(ensemble.issued)}; give perimeters of this time"
         )
     return moments, masks, used
 
@@ -143,7 +143,7 @@ def _arrival(
 
 
 def _date(
-    found: Ensemble,
+    ensemble: Ensemble,
     arrival: NDArray,
     mask: NDArray[np.bool_],
     moment: float,
@@ -163,7 +163,7 @@ def _date(
     weight = grid.areas[domain]
     rank = probability.rank(area, observed)
     return {
-        "time": times.iso(found.valid(moment)),
+        "time": times.iso(ensemble.valid(moment)),
         "lead": moment,
         "observed_area": observed,
         "brier": asdict(probability.brier(share[domain], mask[domain], weight)),

@@ -38,19 +38,21 @@ def read(paths: list[Path], options: Options, name: str) -> Model:
         The ensemble has no such member.
     """
     folder = next(filter(sniff, paths))
-    found = ensemble.open(folder)
-    every = [member.name for member in found.members]
+    forecast = ensemble.open(folder)
+    every = [member.name for member in forecast.members]
     if name not in every:
         listed = ", ".join(every[:20]) + (", ..." if len(every) > 20 else "")
         raise input_error(folder, f'has no member "{name}"; choose one of {listed}')
-    arrival = found.arrival(every.index(name)).astype(np.float64)
-    notes = [f"member {name} of {len(every)}, {found.manifest.name}"]
+    arrival = forecast.arrival(every.index(name)).astype(np.float64)
+    notes = [f"member {name} of {len(every)}, {forecast.manifest.name}"]
     if np.isnan(arrival).any():
         notes.append("cells that the member did not simulate do not burn")
     maps = from_arrival_time.Maps(np.where(np.isfinite(arrival), arrival, np.nan))
-    said = replace(options, start=options.start or found.issued, zone=options.zone or found.manifest.zone)
+    said = replace(
+        options, start=options.start or forecast.issued, zone=options.zone or forecast.manifest.zone
+    )
     land = companion_rasters.find([path for path in paths if path != folder])
-    grid = Grid(found.latitude, found.longitude)
-    model = from_arrival_time.model(maps, grid, land, said, found.manifest.model, [folder], notes)
-    model.name, model.zone = f"{found.manifest.name}, member {name}", said.zone
+    grid = Grid(forecast.latitude, forecast.longitude)
+    model = from_arrival_time.model(maps, grid, land, said, forecast.manifest.model, [folder], notes)
+    model.name, model.zone = f"{forecast.manifest.name}, member {name}", said.zone
     return model

@@ -46,27 +46,29 @@ def check(settings: Settings, run: Run) -> None:
     if settings.forecast.ensemble is None:
         return
     try:
-        found = forecast.of(settings)
+        ensemble = forecast.of(settings)
     except InputError as error:
         raise forecast.error(settings, "ensemble", f"forecast.ensemble: {error}") from None
-    kind = found.manifest.kind
+    kind = ensemble.manifest.kind
     if settings.forecast.shares and kind != "forecast":
         reason = f"shares of members of the kind {kind} are not a probability; set forecast.shares = false"
         raise forecast.error(settings, "shares", f"forecast.shares: {reason}")
-    member = forecast.set_member(settings, found)
-    name = found.members[member].name
-    same = forecast.agreement(found, member, run)
+    member = forecast.set_member(settings, ensemble)
+    name = ensemble.members[member].name
+    same = forecast.agreement(ensemble, member, run)
     if same.share < forecast.AGREES:
-        best, other = forecast.most_similar(found, run)
-        hint = f"; it agrees with member {found.members[best].name}" if other.share >= forecast.AGREES else ""
+        best, other = forecast.most_similar(ensemble, run)
+        hint = (
+            f"; it agrees with member {ensemble.members[best].name}" if other.share >= forecast.AGREES else ""
+        )
         reason = (
             f"the run does not show member {name} of the forecast: of the area that either burned by "
-            f"{times.iso(found.valid(same.time))}, {same.share:.0%} burned in both, and "
+            f"{times.iso(ensemble.valid(same.time))}, {same.share:.0%} burned in both, and "
             f"{forecast.AGREES:.0%} are needed{hint}; give the member's run, or the run's member as "
             "forecast.member"
         )
         raise forecast.error(settings, "member", reason)
-    _check_window(settings, run, found, member)
+    _check_window(settings, run, ensemble, member)
 
 
 def check_others(settings: Settings, runs: Mapping[str, Run]) -> None:
@@ -79,19 +81,20 @@ def check_others(settings: Settings, runs: Mapping[str, Run]) -> None:
     """
     if settings.forecast.ensemble is None:
         return
-    found = forecast.of(settings)
+    ensemble = forecast.of(settings)
     for i, (name, run) in enumerate(runs.items()):
-        best, same = forecast.most_similar(found, run)
+        best, same = forecast.most_similar(ensemble, run)
         if same.share < forecast.AGREES:
             reason = (
                 f'run "{name}" is not a member of forecast.ensemble: the most similar, '
-                f"{found.members[best].name}, has {same.share:.0%} of the area burned by either in common, "
-                f"and {forecast.AGREES:.0%} are needed; name the run of a member, or leave out [forecast]"
+                f"{ensemble.members[best].name}, has {same.share:.0%} of the area burned by either in "
+                f"common, and {forecast.AGREES:.0%} are needed; "
+                "name the run of a member, or leave out [forecast]"
             )
             raise scene_text.error_at(settings.path, ("runs", i, "path"), reason)
 
 
-def _check_window(settings: Settings, run: Run, found: Ensemble, member: int) -> None:
+def _check_window(settings: Settings, run: Run, ensemble: Ensemble, member: int) -> None:
     """Check that the shot lies between the issue time and the member's end.
 
     Raises
@@ -101,11 +104,11 @@ def _check_window(settings: Settings, run: Run, found: Ensemble, member: int) ->
     """
     shown = frames.resolve(settings.time, run)
     first, last = times.utc(run, shown.first), times.utc(run, shown.last)
-    end = found.valid(min(found.members[member].end, found.horizon))
-    if found.issued <= first and last <= end:
+    end = ensemble.valid(min(ensemble.members[member].end, ensemble.horizon))
+    if ensemble.issued <= first and last <= end:
         return
     reason = (
-        f"member {found.members[member].name} has {times.iso(found.issued)} to {times.iso(end)}, and the "
-        f"shot shows {times.iso(first)} to {times.iso(last)}; change time.start and time.end"
+        f"member {ensemble.members[member].name} has {times.iso(ensemble.issued)} to {times.iso(end)}, and "
+        f"the shot shows {times.iso(first)} to {times.iso(last)}; change time.start and time.end"
     )
     raise forecast.error(settings, "ensemble", reason)

@@ -55,12 +55,12 @@ class MemberArrivals:
 
     def as_json(self, station: int) -> dict[str, Any]:
         """Return the quantiles of a station as JSON data; times in UTC, null: later or never."""
-        arrivals, known = self.arrivals, self.arrivals.known(station)
+        arrivals, arrival = self.arrivals, self.arrivals.known(station)
         quantiles = [(share, arrivals.by(station, share)) for share in SHARES]
         return {
             "text": arrivals.sentence(station, self.zone),
-            "members": len(known),
-            "not_reached": int(np.isinf(known).sum()),
+            "members": len(arrival),
+            "not_reached": int(np.isinf(arrival).sum()),
             "near": int(arrivals.near[station]),
             "burned_by": [
                 {

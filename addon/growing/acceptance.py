@@ -33,7 +33,7 @@ def reasons(
     ended
         The model has ended.
     """
-    found: list[str] = []
+    reasons: list[str] = []
     for k, each in enumerate(listed):
         if logged.get(each.path.name, 0) > each.index:
             reason = "log"
@@ -45,5 +45,5 @@ def reasons(
             reason = "guessed" if str(each.path) in stable else ""
         if not reason:
             break
-        found.append(reason)
-    return found + [""] * (len(listed) - len(found))
+        reasons.append(reason)
+    return reasons + [""] * (len(listed) - len(reasons))

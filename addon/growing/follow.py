@@ -36,7 +36,7 @@ _LATE = 60.0  # s without a sign of `firetwin watch`, after which that is report
 
 
 @dataclass(frozen=True)
-class _Known:
+class _Poll:
     """A growing run at a poll: its newest revision, whether times follow, and the identity of its film."""
 
     run: Run
@@ -74,17 +74,17 @@ def run(
     with tempfile.TemporaryDirectory(prefix="follow-", dir=settings.cache) as folder:
         film = _Film(choice, asked, Path(folder), progress, tell, stop)
         while True:
-            known, text = _look(settings, Path(folder)), f"waiting for the first time in {settings.run}"
-            if known is not None:
-                groups, missing = _groups(settings, asked, known)
-                film.render(known, groups)
-                text = _describe_missing(known, missing) if missing else ""
+            poll, text = _look(settings, Path(folder)), f"waiting for the first time in {settings.run}"
+            if poll is not None:
+                groups, missing = _groups(settings, asked, poll)
+                film.render(poll, groups)
+                text = _describe_missing(poll, missing) if missing else ""
             text = "\n".join(each for each in (text, _describe_silence(settings.run)) if each)
             if text != said:
                 for line in text.split("\n"):
                     tell(line)
                 said = text
-            if known is not None and (known.ended or not missing):
+            if poll is not None and (poll.ended or not missing):
                 return RenderResult(film.pictures, film.expected, film.peak)
             wait(every)
 
@@ -109,12 +109,12 @@ def _check(settings: Settings) -> None:
             )
 
 
-def _look(settings: Settings, place: Path) -> _Known | None:
+def _look(settings: Settings, place: Path) -> _Poll | None:
     """Open the newest revision, linked into the folder `place`; None before the first time."""
     folder = settings.run
     if not watched.is_watched(folder):
         run = readers.open(folder)
-        return _Known(run, True, content.fingerprint({"run": content.inputs(run, settings.cache)}))
+        return _Poll(run, True, content.fingerprint({"run": content.inputs(run, settings.cache)}))
     ended = watched.is_final(folder)  # before the times, which may follow
     accepted = watched.times(folder)
     if not accepted:
@@ -123,7 +123,7 @@ def _look(settings: Settings, place: Path) -> _Known | None:
         return None
     first = watched.last_generation(accepted)[0]
     kept = _keep(folder, place / "revisions")
-    return _Known(readers.open(kept), ended, f"{first.generation} {first.time} {first.sha256}")
+    return _Poll(readers.open(kept), ended, f"{first.generation} {first.time} {first.sha256}")
 
 
 def _keep(folder: Path, place: Path) -> Path:
@@ -142,17 +142,17 @@ def _keep(folder: Path, place: Path) -> Path:
                 raise
 
 
-def _groups(settings: Settings, asked: RenderRequest, known: _Known) -> tuple[dict[int, list[int]], int]:
+def _groups(settings: Settings, asked: RenderRequest, poll: _Poll) -> tuple[dict[int, list[int]], int]:
     """Group the requested frames by the number of times that they need; also count those that must wait."""
-    shown = _frames(settings, known.run)
+    shown = _frames(settings, poll.run)
     try:
         wanted = FrameList(asked.frames or "").frames(shown.count)
     except ValueError as error:
         raise UsageError(f"--frames: {error}") from None
-    known_times = np.asarray(known.run.times)
+    known_times = np.asarray(poll.run.times)
     groups: dict[int, list[int]] = {}
     for frame in wanted:
-        needed = known_run.next_time(known_times, shown.time(frame), known.ended)
+        needed = known_run.next_time(known_times, shown.time(frame), poll.ended)
         groups.setdefault(needed, []).append(frame)
     return groups, len(groups.pop(0, []))
 
@@ -176,24 +176,24 @@ class _Film:
         self.rendered: set[int] = set()
         self.pictures = self.expected = self.peak = 0
 
-    def render(self, known: _Known, groups: dict[int, list[int]]) -> None:
+    def render(self, poll: _Poll, groups: dict[int, list[int]]) -> None:
         """Render the groups of a revision that are not rendered yet."""
-        if known.identity != self.identity:
+        if poll.identity != self.identity:
             if self.identity:
                 self.tell("the model started again; all frames are rendered from its new times")
-            self.identity, self.exposure = known.identity, ""
+            self.identity, self.exposure = poll.identity, ""
             self.rendered.clear()
         for needed, listed in sorted(groups.items()):
             todo = [frame for frame in listed if frame not in self.rendered]
             if todo:
-                self._render(known, needed, todo)
+                self._render(poll, needed, todo)
                 self.rendered.update(todo)
 
-    def _render(self, known: _Known, needed: int, listed: list[int]) -> None:
+    def _render(self, poll: _Poll, needed: int, listed: list[int]) -> None:
         place = self.folder / self.settings.run.absolute().name
         shutil.rmtree(place, ignore_errors=True)
-        end = _frames(self.settings, known.run).last
-        known_run.write(known.run, needed, end, place, known.identity)
+        end = _frames(self.settings, poll.run).last
+        known_run.write(poll.run, needed, end, place, poll.identity)
         choice = replace(self.choice, run=str(place), cache=str(self._cache()))
         if self.settings.light.exposure is None:
             self.exposure = self.exposure or self._meter(choice)
@@ -229,10 +229,10 @@ def _frames(settings: Settings, run: Run) -> Frames:
     return found
 
 
-def _describe_missing(known: _Known, missing: int) -> str:
+def _describe_missing(poll: _Poll, missing: int) -> str:
     """Describe the frames that wait, or that the run does not reach."""
-    newest = times.iso(times.utc(known.run, float(known.run.times[-1])))
-    if known.ended:
+    newest = times.iso(times.utc(poll.run, float(poll.run.times[-1])))
+    if poll.ended:
         return f"the run ended at {newest}, before the film: {count(missing, 'frame')} not rendered"
     return f"rendered up to {newest}; {count(missing, 'frame')} left, until the next model time exists"
 

@@ -44,7 +44,7 @@ def read_time(model: Model, index: int) -> Fields:
     InputError
         The file cannot be read.
     """
-    found: Fields = {}
+    fields: Fields = {}
     for name, get in model.moving.items():
         if name in model.levels:
             continue
@@ -52,8 +52,8 @@ def read_time(model: Model, index: int) -> Fields:
             values = get(index)
         if (np.abs(np.nan_to_num(np.asarray(values, np.float64))) >= netcdf.UNWRITTEN).any():
             raise UnwrittenError(name)
-        found[name] = write.on_run_grid(model, name, values)
-    return found
+        fields[name] = write.on_run_grid(model, name, values)
+    return fields
 
 
 def digest(fields: Fields) -> str:

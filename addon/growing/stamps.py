@@ -28,16 +28,16 @@ def scan(path: Path) -> Stamps:
         entries = sorted(path.iterdir())
     except OSError:
         return {}
-    found: Stamps = {}
+    stamps: Stamps = {}
     for each in entries:
         try:
             if each.is_file():
-                found[str(each)] = _of_file(each)
+                stamps[str(each)] = _of_file(each)
             elif zarr_store.is_store(each):
-                found[str(each)] = _of_store(each)
+                stamps[str(each)] = _of_store(each)
         except OSError:  # removed meanwhile
             continue
-    return found
+    return stamps
 
 
 def _of_file(path: Path) -> tuple[int, int]:

@@ -82,15 +82,15 @@ def run(
     model = _open(paths, options)
     try:
         listed = [Listed(model.moment(k), *model.sources[k]) for k in range(len(model.times))]
-        known = watched.last_generation(before) if before else []
-        restarted = _restart(model, listed, known) if known else ""
+        accepted = watched.last_generation(before) if before else []
+        restarted = _restart(model, listed, accepted) if accepted else ""
         if restarted:
-            known = []
+            accepted = []
         generation = 1 if not before else before[-1].generation + bool(restarted)
         outcome = Outcome(restarted=restarted)
         reasons = acceptance.reasons(listed, logged, stable, ended)
-        after = known[-1].moment if known else None
-        origin = known[0].origin if known else model.start
+        after = accepted[-1].moment if accepted else None
+        origin = accepted[0].origin if accepted else model.start
         values: list[revision.Fields] = []
         size = 0
         for k, (each, reason) in enumerate(zip(listed, reasons, strict=True)):
@@ -127,9 +127,9 @@ def run(
     finally:
         model.close()
     if outcome.new:
-        count = len(known) + len(outcome.new)
+        count = len(accepted) + len(outcome.new)
         outcome.new = [replace(each, revision=count) for each in outcome.new]
-        _publish(folder, paths, options, before, known, outcome.new, values)
+        _publish(folder, paths, options, before, accepted, outcome.new, values)
     return outcome
 
 
@@ -152,33 +152,33 @@ def _publish(
     paths: list[Path],
     options: Options,
     before: list[Accepted],
-    known: list[Accepted],
+    accepted: list[Accepted],
     new: list[Accepted],
     values: list[revision.Fields],
 ) -> None:
     """Publish the revision with times read up to the last accepted one, then list the times."""
     model = _open(paths, replace(options, until=new[-1].moment))
     try:
-        origin = (known or new)[0].origin
+        origin = (accepted or new)[0].origin
         shift = (origin - model.start).total_seconds()
         model.name, model.zone = options.name or f"{folder.name} ({model.name})", options.zone
         get = model.still.get("fuel_arrival_time")
         if get is not None and shift:
             model.still["fuel_arrival_time"] = lambda: get() - shift
         model.start = origin
-        revision.publish(folder, model, known, new, values, new[-1].sha256)
+        revision.publish(folder, model, accepted, new, values, new[-1].sha256)
     finally:
         model.close()
     watched.append(folder, before, new)
     revision.remove_old(folder, new[-1].generation)
 
 
-def _restart(model: Model, listed: list[Listed], known: list[Accepted]) -> str:
+def _restart(model: Model, listed: list[Listed], accepted: list[Accepted]) -> str:
     """Return why the files are of another start of the model than the accepted times; "" if they are not."""
     by_moment = {each.moment: k for k, each in enumerate(listed)}
-    if listed[-1].moment < known[-1].moment:
-        return f"times go back from {known[-1].time} to {listed[-1].moment.isoformat()}"
-    for each in {known[0].time: known[0], known[-1].time: known[-1]}.values():
+    if listed[-1].moment < accepted[-1].moment:
+        return f"times go back from {accepted[-1].time} to {listed[-1].moment.isoformat()}"
+    for each in {accepted[0].time: accepted[0], accepted[-1].time: accepted[-1]}.values():
         k = by_moment.get(each.moment)
         if k is None:
             continue

@@ -122,7 +122,7 @@ class _Watch:
         self.seen = seen
         log = model_log.read(_log_folder(request.source))
         accepted = watched.times(request.out)
-        known = watched.last_generation(accepted) if accepted else []
+        generation = watched.last_generation(accepted) if accepted else []
         idle = bool(request.idle) and now - self.changed >= request.idle
         ended = log.succeeded or idle
         key = (seen, stable, log, ended)
@@ -134,11 +134,11 @@ class _Watch:
             took = time.monotonic() - begun
             pause = 0.0 if self.outcome.more else max(pause, _REST * took)
             accepted = watched.times(request.out)
-            known = watched.last_generation(accepted) if accepted else []
-        if request.end is not None and known and known[-1].moment >= request.end:
+            generation = watched.last_generation(accepted) if accepted else []
+        if request.end is not None and generation and generation[-1].moment >= request.end:
             ended = True
         ended = ended and not self.outcome.more
-        self._report(known, ended, log)
+        self._report(generation, ended, log)
         return pause
 
     def _step(self, log: model_log.ModelLog, stable: list[str], ended: bool) -> None:
@@ -176,26 +176,26 @@ class _Watch:
             guess = " (guessed complete)" if each.complete == "guessed" else ""
             self.tell(f"{each.moment:%Y-%m-%d %H:%M:%S} UTC from {each.source}{guess}")
 
-    def _report(self, known: list[watched.Accepted], ended: bool, log: model_log.ModelLog) -> None:
+    def _report(self, generation: list[watched.Accepted], ended: bool, log: model_log.ModelLog) -> None:
         """Choose the state, write it, and print changes."""
         request = self.request
         state = states.state(
-            [each.clock for each in known],
+            [each.clock for each in generation],
             time.time(),
             request.every,
             ended=ended,
             failed=bool(log.failure) and not log.succeeded and not self.outcome.more,
             restarted=self.restarted,
         )
-        if state == "ended" and not known:
+        if state == "ended" and not generation:
             state = "failed"
             self.message = self.message or "the model ended without a complete time"
         if state == "failed" and log.failure:
             self.message = f"{model_log.NAME}: {log.failure}"
         status = status_page.create(
-            state, self.message, request.source, known, self.outcome.pending, request.every
+            state, self.message, request.source, generation, self.outcome.pending, request.every
         )
-        status_page.write(request.out, status, known)
+        status_page.write(request.out, status, generation)
         if state != self.state:
             self.tell(status_page.describe(status) + (f"; {self.message}" if state == "failed" else ""))
         self.state = state

@@ -1,9 +1,11 @@
-"""Ensembles of a few cells."""
+"""Ensembles of a few cells, and conversions of members."""
 
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
+from firetwin.forecasts import convert as members_convert
 from firetwin.forecasts.ensemble import ensemble, write
 from firetwin.forecasts.ensemble.manifest import Manifest, Member
 
@@ -23,3 +25,29 @@ def make(folder: Path, arrival, weights=None, ends=None, horizon=24.0) -> ensemb
     out = folder / "ensemble"
     write.write(out, head, latitude, longitude, zip(members, arrival, strict=True))
     return ensemble.open(out)
+
+
+class Converted(NamedTuple):
+    """An ensemble, its arrival times (m, ny, nx) with rows from the north, and the printed messages."""
+
+    ensemble: ensemble.Ensemble
+    arrival: np.ndarray
+    messages: list[str]
+
+
+def convert(
+    folder: Path | list[Path],
+    out: Path,
+    start="2014-09-17T04:45Z",
+    at="",
+    projection="EPSG:32610",
+    horizon=0.0,
+) -> Converted:
+    """Convert a model's members, and open their ensemble."""
+    messages: list[str] = []
+    paths = folder if isinstance(folder, list) else [folder]
+    members_convert.in_process(paths, out, [start, at, projection, horizon, "", ""], tell=messages.append)
+    members = ensemble.open(out)
+    rows = slice(None, None, -1) if members.latitude[0] < members.latitude[-1] else slice(None)
+    arrival = np.stack([members.arrival(index)[rows] for index in range(len(members.members))])
+    return Converted(members, arrival, messages)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 VARIABLES = {"found", "known", "made"}
 DEFINITIONS = {"Here", "_alone"}
 LINES = 5  # between binding and last use
-CEILINGS = {"addon": 113, "tests": 37}
+CEILINGS = {"addon": 58, "tests": 19}
 """Names that are left, by folder. Only lower figures may replace these."""
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda

@@ -71,13 +71,13 @@ def representatives(ensemble: Ensemble, count: int) -> list[int]:
     chosen, likeness = choose(ensemble), jaccard(overlaps(ensemble, ensemble.horizon))
     counted = np.flatnonzero(ensemble.counted(ensemble.horizon))
     first = (chosen.typical, chosen.outlier, chosen.largest, chosen.smallest)
-    found = list(dict.fromkeys(first))[:count]
-    while len(found) < min(count, len(counted)):
-        near = likeness[counted][:, found].max(axis=1)
+    medoids = list(dict.fromkeys(first))[:count]
+    while len(medoids) < min(count, len(counted)):
+        near = likeness[counted][:, medoids].max(axis=1)
         gain = np.maximum(likeness[counted] - near[:, None], 0.0).sum(axis=0).round(6)  # (m,) of all members
-        gain[[member for member in range(len(gain)) if member in found or member not in counted]] = -1.0
-        found.append(int(gain.argmax()))
-    return found
+        gain[[member for member in range(len(gain)) if member in medoids or member not in counted]] = -1.0
+        medoids.append(int(gain.argmax()))
+    return medoids
 
 
 def jaccard(common: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,9 +7,9 @@ from .ensemble import Ensemble
 from .manifest import Manifest
 
 
-def sources(found: Ensemble) -> list[dict[str, str]]:
+def sources(ensemble: Ensemble) -> list[dict[str, str]]:
     """List the sources of an ensemble as rows of `kind` and `text`."""
-    told = found.manifest
+    told = ensemble.manifest
     text = f"{told.model or 'not named in ensemble.toml'}; {told.source or 'source not given'}"
     return citations.of_model(told.name, text, told.synthetic)
 

@@ -106,8 +106,8 @@ class Ensemble:
 
     def at(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> NDArray[np.float32]:
         """Read the arrival times (m, n) of all members in n cells, s since the issue time."""
-        found = self._array()
-        return np.stack([found[member][rows, columns] for member in range(len(found))])
+        arrival = self._array()
+        return np.stack([arrival[member][rows, columns] for member in range(len(arrival))])
 
     def blocks(self) -> Iterator[tuple[slice, NDArray[np.float32]]]:
         """Read all members in blocks of rows: yield the rows, and a new array (m, rows, nx) of their times.
@@ -121,12 +121,12 @@ class Ensemble:
             start = self._array().offset
             for first in range(0, rows, step):
                 these = slice(first, min(first + step, rows))
-                found = np.empty((members, these.stop - first, columns), np.float32)
+                arrival = np.empty((members, these.stop - first, columns), np.float32)
                 for member in range(members):
                     file.seek(start + 4 * columns * (member * rows + first))
-                    if file.readinto(found[member]) != found[member].nbytes:
+                    if file.readinto(arrival[member]) != arrival[member].nbytes:
                         raise input_error(path, "has become shorter; convert the ensemble again")
-                yield these, found
+                yield these, arrival
 
     def _array(self) -> np.memmap[Any, np.dtype[np.float32]]:
         """Map the arrival times (m, ny, nx); pages that were read are released with the array."""
@@ -151,13 +151,13 @@ def open(path: Path) -> Ensemble:
         reason = "has no issue time; write issued = 2014-09-17T04:45:00Z"
         raise input_error(path / MANIFEST, reason)
     axes = [_axis(path / f"{name}.npy") for name in ("latitude", "longitude")]
-    made = Ensemble(path, manifest, axes[0], axes[1])
+    ensemble = Ensemble(path, manifest, axes[0], axes[1])
     with reading(path / ARRIVAL, "NumPy file"):
-        found = np.load(path / ARRIVAL, mmap_mode="r", allow_pickle=False)
-    if found.dtype != np.dtype("<f4") or found.shape != made.shape:
-        reason = f"holds {found.dtype} {found.shape}, not float32 {made.shape} as the other files say"
+        arrival = np.load(path / ARRIVAL, mmap_mode="r", allow_pickle=False)
+    if arrival.dtype != np.dtype("<f4") or arrival.shape != ensemble.shape:
+        reason = f"holds {arrival.dtype} {arrival.shape}, not float32 {ensemble.shape} as the other files say"
         raise input_error(path / ARRIVAL, f"{reason}; convert the ensemble again")
-    return made
+    return ensemble
 
 
 def _axis(path: Path) -> NDArray[np.float64]:

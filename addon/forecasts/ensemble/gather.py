@@ -36,10 +36,10 @@ def listed(path: Path) -> Manifest:
         The file is damaged, or the folder has no runs.
     """
     if path.is_file():
-        found = manifest.read(path)
-        if missing := next((member.name for member in found.members if member.run is None), None):
+        listing = manifest.read(path)
+        if missing := next((member.name for member in listing.members if member.run is None), None):
             raise input_error(path, f'member "{missing}" has no run; write run = "FOLDER"')
-        return _absolute(found, path.parent)
+        return _absolute(listing, path.parent)
     if (path / MANIFEST).is_file():
         return listed(path / MANIFEST)
     runs = sorted(each for each in path.iterdir() if each.is_dir() and not each.name.startswith("."))
@@ -65,21 +65,21 @@ def convert(path: Path, out: Path, horizon: float = 0.0) -> Manifest:
     InputError
         No run can be opened, or their starts or grids differ.
     """
-    found = listed(path)
-    opened = [_open(member) for member in found.members]
+    listing = listed(path)
+    opened = [_open(member) for member in listing.members]
     runs = [(member, run) for member, run in opened if isinstance(run, Run)]
     if not runs:
         raise input_error(path, f"none of its {len(opened)} runs can be read; {opened[0][1]}")
     grids = {member.name: ArrivalGrid.from_run(run) for member, run in runs}
     latitude, longitude = _union(path, grids)
-    issued = found.issued or times.utc(runs[0][1], 0.0)
+    issued = listing.issued or times.utc(runs[0][1], 0.0)
     head = replace(
-        found,
+        listing,
         issued=issued,
-        horizon=horizon or found.horizon,
-        model=found.model,
-        synthetic=found.synthetic or any(run.synthetic for _, run in runs),
-        source=found.source or f"{len(opened)} runs",
+        horizon=horizon or listing.horizon,
+        model=listing.model,
+        synthetic=listing.synthetic or any(run.synthetic for _, run in runs),
+        source=listing.source or f"{len(opened)} runs",
     )
 
     def members() -> Iterator[write.Read]:
@@ -88,7 +88,7 @@ def convert(path: Path, out: Path, horizon: float = 0.0) -> Manifest:
                 yield member, run
                 continue
             shift = (times.utc(run, 0.0) - issued).total_seconds()
-            if found.issued is None and abs(shift) > 0.5:
+            if listing.issued is None and abs(shift) > 0.5:
                 reason = f"begins {shift / 3600.0:+.2f} h from {runs[0][0].name}; members have one start"
                 raise input_error(Path(run.path), f"{reason}; write issued = TIME in {MANIFEST} to accept it")
             end = min(member.end, float(run.times[-1]) + shift)
@@ -97,10 +97,10 @@ def convert(path: Path, out: Path, horizon: float = 0.0) -> Manifest:
     return write.write(out, head, latitude, longitude, members())
 
 
-def _absolute(found: Manifest, folder: Path) -> Manifest:
+def _absolute(listing: Manifest, folder: Path) -> Manifest:
     """Resolve run folders against the folder of the manifest."""
-    members = [replace(each, run=(folder / each.run).absolute()) for each in found.members if each.run]
-    return replace(found, members=tuple(members))
+    members = [replace(each, run=(folder / each.run).absolute()) for each in listing.members if each.run]
+    return replace(listing, members=tuple(members))
 
 
 def _open(member: Member) -> tuple[Member, Run | InputError]:
@@ -137,15 +137,15 @@ def _union(path: Path, grids: dict[str, ArrivalGrid]) -> tuple[NDArray[np.float6
     InputError
         Cells of two grids differ in size or position by more than 1 % of a cell.
     """
-    made = []
+    unions = []
     for name in ("latitude", "longitude"):
         axes = {member: getattr(grid, name) for member, grid in grids.items()}
         try:
-            made.append(_extended(list(axes.values()), list(axes)))
+            unions.append(_extended(list(axes.values()), list(axes)))
         except Error as error:
             reason = f"{error}; members need cells of one grid: convert them with the same options"
             raise input_error(path, reason) from None
-    return made[0], made[1]
+    return unions[0], unions[1]
 
 
 def _extended(axes: list[NDArray[np.float64]], names: list[str]) -> NDArray[np.float64]:

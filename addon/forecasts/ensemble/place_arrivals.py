@@ -74,8 +74,8 @@ class PlaceArrivals:
 
     def by(self, place: int, share: float) -> float:
         """Return the time (s) by which a share of the members has burned a place; inf, NaN as `arrival`."""
-        known = self.known(place)
-        return float(known[members_of_share(share, len(known)) - 1]) if len(known) else float("nan")
+        arrival = self.known(place)
+        return float(arrival[members_of_share(share, len(arrival)) - 1]) if len(arrival) else float("nan")
 
     def clock(self, time: float, zone: str) -> str:
         """Format a time since the issue time without its year: ``17 Sep 16:20``."""
@@ -110,24 +110,26 @@ class PlaceArrivals:
         ``2 of 20 by 17 Sep 14:35, 10 of 20 by 18 Sep 04:05; not in 10 of 20 by 18 Sep 04:42, when the
         forecast ends``
         """
-        known = self.known(place)
-        if not len(known):
+        arrival = self.known(place)
+        if not len(arrival):
             return "not simulated"
-        never = int(np.isinf(known).sum())
+        never = int(np.isinf(arrival).sum())
         parts = []
         for share in SHARES[:2]:
             time = self.by(place, share)
             if np.isfinite(time):
                 when = "burned before" if time <= 0.0 else f"by {self.clock(time, zone)}"
-                parts.append(f"{self.share_text(share, len(known))} {when}")
-        if not parts and never < len(known):
-            last = self.clock(float(known[len(known) - never - 1]), zone)
-            parts = [f"{len(known) - never} of {len(known)} by {last}"]
-        found = [", ".join(parts)] if parts else []
+                parts.append(f"{self.share_text(share, len(arrival))} {when}")
+        if not parts and never < len(arrival):
+            last = self.clock(float(arrival[len(arrival) - never - 1]), zone)
+            parts = [f"{len(arrival) - never} of {len(arrival)} by {last}"]
+        clauses = [", ".join(parts)] if parts else []
         if never:
             near = f" (within {NEAR / 1000.0:g} km in {self.near[place]})" if self.near[place] else ""
-            found.append(f"not in {never} of {len(known)}{near} by {self.end(zone)}, when the forecast ends")
-        return "; ".join(found)
+            clauses.append(
+                f"not in {never} of {len(arrival)}{near} by {self.end(zone)}, when the forecast ends"
+            )
+        return "; ".join(clauses)
 
     def weights_note(self) -> str:
         """Say that members count equally if they have other weights; else empty."""
@@ -145,41 +147,41 @@ def open_forecast(folder: Path, what: str) -> Ensemble:
     InputError
         It is damaged, or not a forecast of one fire.
     """
-    found = ensemble.open(folder)
-    if found.manifest.kind != "forecast":
-        kind = KINDS[found.manifest.kind]
+    forecast = ensemble.open(folder)
+    if forecast.manifest.kind != "forecast":
+        kind = KINDS[forecast.manifest.kind]
         raise input_error(folder, f"holds {kind}; {what} needs the kind forecast")
-    return found
+    return forecast
 
 
-def earliest(found: Ensemble, lines: Sequence[NDArray[np.float64]]) -> PlaceArrivals:
+def earliest(forecast: Ensemble, lines: Sequence[NDArray[np.float64]]) -> PlaceArrivals:
     """Sample the earliest arrival of each member on lines, each of points (k, 2), degrees east and north."""
-    counted = np.flatnonzero(found.counted(found.horizon))
+    counted = np.flatnonzero(forecast.counted(forecast.horizon))
     arrival = np.full((len(counted), len(lines)), np.nan)
     for column, line in enumerate(lines):
         if len(line):
-            points = sample(found, line[:, 1], line[:, 0]).arrival
+            points = sample(forecast, line[:, 1], line[:, 0]).arrival
             arrival[:, column] = np.fmin.reduce(points, axis=1)
-    return PlaceArrivals(found, counted, arrival, np.zeros(len(lines), np.int64))
+    return PlaceArrivals(forecast, counted, arrival, np.zeros(len(lines), np.int64))
 
 
-def sample(found: Ensemble, latitude: ArrayLike, longitude: ArrayLike) -> PlaceArrivals:
+def sample(forecast: Ensemble, latitude: ArrayLike, longitude: ArrayLike) -> PlaceArrivals:
     """Sample the members that reach the end of a forecast in the cells of places (n,), degrees."""
-    grid = ArrivalGrid(found.latitude, found.longitude, np.empty(found.shape[1:]))
-    counted = np.flatnonzero(found.counted(found.horizon))
+    grid = ArrivalGrid(forecast.latitude, forecast.longitude, np.empty(forecast.shape[1:]))
+    counted = np.flatnonzero(forecast.counted(forecast.horizon))
     rows, columns = grid.cells_at(np.asarray(latitude, np.float64), np.asarray(longitude, np.float64))
-    arrival = found.at(np.maximum(rows, 0), np.maximum(columns, 0))[counted].astype(np.float64)
+    arrival = forecast.at(np.maximum(rows, 0), np.maximum(columns, 0))[counted].astype(np.float64)
     arrival[:, (rows < 0) | (columns < 0)] = np.nan
     near = np.zeros(len(rows), np.int64)
     for place in np.flatnonzero(np.isinf(arrival).any(axis=0) & ~np.isfinite(arrival).any(axis=0)):
-        near[place] = _members_near(found, counted, int(rows[place]), int(columns[place]))
-    return PlaceArrivals(found, counted, arrival, near)
+        near[place] = _members_near(forecast, counted, int(rows[place]), int(columns[place]))
+    return PlaceArrivals(forecast, counted, arrival, near)
 
 
-def _members_near(found: Ensemble, counted: NDArray[np.int64], row: int, column: int) -> int:
+def _members_near(forecast: Ensemble, counted: NDArray[np.int64], row: int, column: int) -> int:
     """Count the members that burn a cell whose centre is within `NEAR` of the centre of a cell."""
-    width, height = cell_size(found.latitude, found.longitude)
-    _, ny, nx = found.shape
+    width, height = cell_size(forecast.latitude, forecast.longitude)
+    _, ny, nx = forecast.shape
     up, right = int(NEAR / height), int(NEAR / width)
     rows, columns = np.meshgrid(
         np.arange(max(row - up, 0), min(row + up + 1, ny)),
@@ -187,5 +189,5 @@ def _members_near(found: Ensemble, counted: NDArray[np.int64], row: int, column:
         indexing="ij",
     )
     inside = np.hypot((rows - row) * height, (columns - column) * width) <= NEAR
-    burned = found.at(rows[inside], columns[inside])[counted] <= found.horizon
+    burned = forecast.at(rows[inside], columns[inside])[counted] <= forecast.horizon
     return int(burned.any(axis=1).sum())

@@ -40,9 +40,9 @@ class Places:
     def burned(self, member: int, time: float) -> NDArray[np.bool_]:
         """Find the places that a member has burned by a time, s since the issue time."""
         arrival = self._reach(member).arrival
-        found = np.zeros(len(self.inside), np.bool_)
+        burned = np.zeros(len(self.inside), np.bool_)
         if not (reached := arrival <= time).any():
-            return found
+            return burned
         box = [
             (max(int(lines[0]) - 2, 0), int(lines[-1]) + 3)
             for lines in (np.flatnonzero(reached.any(axis)) for axis in (1, 0))
@@ -51,16 +51,16 @@ class Places:
         near = self.inside & (self._row >= south) & (self._row <= north - 1)
         near &= (self._column >= west) & (self._column <= east - 1)
         since = fill_unburned(arrival[south:north, west:east] - time)
-        found[near] = bilinear(since, self._row[near] - south, self._column[near] - west) <= 0.0
-        return found
+        burned[near] = bilinear(since, self._row[near] - south, self._column[near] - west) <= 0.0
+        return burned
 
     def simulated(self, members: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Find the places that all of the given members have simulated."""
-        known = _simulated(self.ensemble, tuple(members.tolist()))
+        simulated = _simulated(self.ensemble, tuple(members.tolist()))
         _, rows, columns = self.ensemble.shape
         row = np.clip(np.rint(self._row).astype(np.int64) - 1, 0, rows - 1)
         column = np.clip(np.rint(self._column).astype(np.int64) - 1, 0, columns - 1)
-        return self.inside & known[row, column]
+        return self.inside & simulated[row, column]
 
     def _reach(self, member: int) -> Reach:
         """Return the burned area of a member."""
@@ -79,10 +79,10 @@ def reach(ensemble: Ensemble, arrival: NDArray[np.floating]) -> Reach:
 def _simulated(ensemble: Ensemble, members: tuple[int, ...]) -> NDArray[np.bool_]:
     """Find the cells (ny, nx), on ascending axes, that all of these members have simulated."""
     _, *shape = ensemble.shape
-    known = np.empty(shape, np.bool_)
+    simulated = np.empty(shape, np.bool_)
     for rows, arrival in ensemble.blocks():
-        known[rows] = ~np.isnan(arrival[list(members)]).any(axis=0)
-    return known[_ascending(ensemble)]
+        simulated[rows] = ~np.isnan(arrival[list(members)]).any(axis=0)
+    return simulated[_ascending(ensemble)]
 
 
 def _ascending(ensemble: Ensemble) -> tuple[slice, slice]:

@@ -15,34 +15,34 @@ from .manifest import KINDS
 _HECTARE = 1e4  # m2
 
 
-def gather(found: Ensemble) -> dict[str, Any]:
+def gather(ensemble: Ensemble) -> dict[str, Any]:
     """Gather the facts that `firetwin info` shows of an ensemble: s, m2."""
-    chosen = choose(found)
+    chosen = choose(ensemble)
     return {
-        "name": found.manifest.name,
-        "path": str(found.path),
-        "kind": found.manifest.kind,
-        "synthetic": found.manifest.synthetic,
-        "model": found.manifest.model,
-        "source": found.manifest.source,
-        "issued": times.iso(found.issued),
-        "horizon": found.horizon,
-        "cells": [len(found.latitude), len(found.longitude)],
-        "perturbed": found.manifest.perturbed,
-        "not_perturbed": found.manifest.not_perturbed,
+        "name": ensemble.manifest.name,
+        "path": str(ensemble.path),
+        "kind": ensemble.manifest.kind,
+        "synthetic": ensemble.manifest.synthetic,
+        "model": ensemble.manifest.model,
+        "source": ensemble.manifest.source,
+        "issued": times.iso(ensemble.issued),
+        "horizon": ensemble.horizon,
+        "cells": [len(ensemble.latitude), len(ensemble.longitude)],
+        "perturbed": ensemble.manifest.perturbed,
+        "not_perturbed": ensemble.manifest.not_perturbed,
         "members": [
             {
                 "name": member.name,
                 "weight": member.weight,
-                "end": float(min(member.end, found.horizon)),
+                "end": float(min(member.end, ensemble.horizon)),
                 "area": _number(chosen.area[index]),
                 "depth": _number(chosen.depth[index]),
             }
-            for index, member in enumerate(found.members)
+            for index, member in enumerate(ensemble.members)
         ],
-        "left_out": [{"name": each.name, "reason": each.reason} for each in found.left_out],
+        "left_out": [{"name": each.name, "reason": each.reason} for each in ensemble.left_out],
         "choice": {
-            role: found.members[getattr(chosen, role)].name
+            role: ensemble.members[getattr(chosen, role)].name
             for role in ("typical", "smallest", "largest", "outlier")
         },
     }

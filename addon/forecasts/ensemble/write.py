@@ -17,7 +17,7 @@ from ...run.models import write as run_write
 from .ensemble import ARRIVAL
 from .manifest import MANIFEST, LeftOut, Manifest, Member, text
 
-Read = tuple[Member, NDArray[np.float32] | InputError | str]
+Read = tuple[Member, NDArray | InputError | str]
 """Member, and its arrival times (ny, nx), s since the issue time; or the reason why it is left out."""
 
 
@@ -52,16 +52,16 @@ def write(
             if not kept:
                 why = f"; {left_out[0].name}: {left_out[0].reason}" if left_out else ""
                 raise input_error(out, f"no member has arrival times{why}")
-            made = _complete(manifest, kept, left_out)
+            complete = _complete(manifest, kept, left_out)
             np.save(part / "latitude.npy", latitude)
             np.save(part / "longitude.npy", longitude)
-            files.write_text(part / MANIFEST, text(made))
+            files.write_text(part / MANIFEST, text(complete))
             if out.is_dir():
                 out.rmdir()
             part.rename(out)
     finally:
         shutil.rmtree(part, ignore_errors=True)
-    return made
+    return complete
 
 
 def _members(

@@ -64,15 +64,15 @@ def draw(
     layers = sensor.read_channels(needed["comp"]["exr"])
     view, (height, width) = pixel_rays.path_of(shot.paths, camera), planar.shape
     points = pixel_rays.points(view, frame, planar)
-    found, settings = forecast.of(shot.settings), shot.settings.forecast
-    time = (shot.utc(frame) - found.issued).total_seconds()
-    counted = np.flatnonzero(found.counted(time))
-    lines = forecast.others(found, shown, settings.lines) if others else []
+    ensemble, settings = forecast.of(shot.settings), shot.settings.forecast
+    time = (shot.utc(frame) - ensemble.issued).total_seconds()
+    counted = np.flatnonzero(ensemble.counted(time))
+    lines = forecast.others(ensemble, shown, settings.lines) if others else []
     drawn = [member for member in lines if member in counted]
     ground = np.isfinite(points).all(axis=-1)
     latitude, longitude, _ = shot.local_frame.reverse(points[ground])
     named = labels.of_forecast(shot)
-    places = Places(found, np.append(latitude, named.latitude), np.append(longitude, named.longitude))
+    places = Places(ensemble, np.append(latitude, named.latitude), np.append(longitude, named.longitude))
     pixels = slice(None, len(latitude))
 
     def picture(values: NDArray) -> NDArray:
@@ -80,23 +80,23 @@ def draw(
         full[ground] = values[pixels]
         return full
 
-    known, clear, flat = places.simulated(counted), clearness(layers), smooth_ground(planar)
-    counts, borders = np.zeros(len(known), np.int64), dict[int, Array]()
+    simulated, clear, flat = places.simulated(counted), clearness(layers), smooth_ground(planar)
+    counts, borders = np.zeros(len(simulated), np.int64), dict[int, Array]()
     for member in {*(counted.tolist() if settings.shares else ()), shown, *drawn}:
         burned = places.burned(member, time)
         counts += burned
         if member == shown or member in drawn:
             borders[member] = outline(picture(burned)) * flat
     if settings.shares:
-        kinds = classes(picture(np.where(known, counts, 0)), len(counted))
+        kinds = classes(picture(np.where(simulated, counts, 0)), len(counted))
         rgb = tint(rgb, kinds, palette(len(counted)), clear)
-    unknown = picture(~known)
+    unknown = picture(~simulated)
     rgb = over(rgb, HATCH, _HATCH * clear * (unknown & stripes(height, width)))
-    outlier = forecast.outlier(found)
+    outlier = forecast.outlier(ensemble)
     for member in sorted(drawn, key=lambda each: each == outlier):
         rgb = line(rgb, borders[member], OUTLIER if member == outlier else LINE, clear)
     rgb = line(rgb, borders[shown], SHOWN, clear)
-    told = Counts(found, shot.utc(frame), shown, len(counted), tuple(drawn), float(unknown.mean()) > _SEEN)
+    told = Counts(ensemble, shot.utc(frame), shown, len(counted), tuple(drawn), float(unknown.mean()) > _SEEN)
     seen = _labels.visible(view, frame, planar, clear, named.position)
     of = len(counted) if settings.shares and others else 0
     marks = [

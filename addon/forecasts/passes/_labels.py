@@ -33,14 +33,14 @@ def roles(
     clear
         (h, w) visibility of the ground.
     """
-    found, marks = counts.ensemble, list[Mark]()
-    outlier = forecast.outlier(found)
+    ensemble, marks = counts.ensemble, list[Mark]()
+    outlier = forecast.outlier(ensemble)
     lines = {member: np.argwhere(border * clear > _CLEAR) for member, border in borders.items()}
     for member in sorted(counts.drawn, key=lambda each: each != outlier):
-        said = forecast.roles(found, member)
+        said = forecast.roles(ensemble, member)
         at = _free_point([lines[member], *(lines[k] for k in lines if k != member)], clear.shape)
         if said and at is not None:
-            text = f"{found.members[member].name} {', '.join(said[::-1])}"
+            text = f"{ensemble.members[member].name} {', '.join(said[::-1])}"
             marks.append(Mark(at[1], at[0], text, OUTLIER if member == outlier else LINE))
     return marks
 

@@ -54,9 +54,9 @@ class Counts:
 
 def caption(shot: Shot, counts: Counts) -> list[str]:
     """Name the shown member, the fire model, and the issue and valid times."""
-    found, manifest = counts.ensemble, counts.ensemble.manifest
-    which = f"{counts.kind} {found.members[counts.shown].name} of {len(found.members)}"
-    roles = ", ".join(forecast.roles(found, counts.shown))
+    ensemble, manifest = counts.ensemble, counts.ensemble.manifest
+    which = f"{counts.kind} {ensemble.members[counts.shown].name} of {len(ensemble.members)}"
+    roles = ", ".join(forecast.roles(ensemble, counts.shown))
     model = _short(manifest.model or "model not given")
     return [
         *(["synthetic"] if shot.run.synthetic or manifest.synthetic else []),
@@ -74,17 +74,17 @@ def when(shot: Shot, counts: Counts) -> list[str]:
     ]
 
 
-def member(found: Ensemble, shown: int) -> list[str]:
+def member(ensemble: Ensemble, shown: int) -> list[str]:
     """Name a member of all, and its roles."""
-    kind, roles = _KINDS[found.manifest.kind], ", ".join(forecast.roles(found, shown))
-    return [f"{kind} {found.members[shown].name} of {len(found.members)}", *([roles] if roles else [])]
+    kind, roles = _KINDS[ensemble.manifest.kind], ", ".join(forecast.roles(ensemble, shown))
+    return [f"{kind} {ensemble.members[shown].name} of {len(ensemble.members)}", *([roles] if roles else [])]
 
 
 def part(counts: Counts, area: float) -> list[Key]:
     """Name the member of a part of a split screen, its roles, and the area (m2) that it has burned."""
-    found = counts.ensemble
-    roles = ", ".join(forecast.roles(found, counts.shown))
-    name = f"{counts.kind} {found.members[counts.shown].name}"
+    ensemble = counts.ensemble
+    roles = ", ".join(forecast.roles(ensemble, counts.shown))
+    name = f"{counts.kind} {ensemble.members[counts.shown].name}"
     keys = [(_LINED + SHOWN, f"{name}, {roles}" if roles else name)]
     return [*keys, ("", burned(area))]
 
@@ -96,8 +96,8 @@ def burned(area: float) -> str:
 
 def legend(shot: Shot, counts: Counts, parts: int = 1) -> list[Key]:
     """Explain colours, lines and hatching; for several parts of a split screen, without lines."""
-    found, kind, count = counts.ensemble, counts.kind, counts.count
-    total = len(found.members)
+    ensemble, kind, count = counts.ensemble, counts.kind, counts.count
+    total = len(ensemble.members)
     clock = f"{counts.moment.astimezone(ZoneInfo(shot.settings.time.zone)):%H:%M}"
     keys: list[Key] = []
     if shares := shot.settings.forecast.shares:
@@ -106,31 +106,31 @@ def legend(shot: Shot, counts: Counts, parts: int = 1) -> list[Key]:
         classes = [(colour, f"{k} of {count}") for colour, k in steps[::-1]]
         classes[0] = classes[0][0], f"{classes[0][1]} {kind}s"
         keys += [("", f"burned by {clock} in"), *classes]
-        if len({member.weight for member in found.members}) > 1:
+        if len({member.weight for member in ensemble.members}) > 1:
             keys.append(("", "members count equally, weights not used"))
     if parts > 1:
         keys.append(("", f"{parts} of {total} {kind}s shown{', colours count all' * shares}"))
         keys.append(("", "typical and extreme ones, not equally likely"))
     else:
-        keys.append((_LINED + SHOWN, f"front of {kind} {found.members[counts.shown].name}, burning"))
+        keys.append((_LINED + SHOWN, f"front of {kind} {ensemble.members[counts.shown].name}, burning"))
         keys += _lines(counts, ", colours count all" if shares else "")
     if counts.hatched:
         keys.append((HATCHED, "not simulated"))
     if (ended := total - count) > 0:
         keys.append(("", f"{ended} of {total} ended before {clock}"))
-    if found.left_out:
-        keys.append(("", f"{len(found.left_out)} failed, not counted"))
+    if ensemble.left_out:
+        keys.append(("", f"{len(ensemble.left_out)} failed, not counted"))
     return keys
 
 
 def _lines(counts: Counts, more: str) -> list[Key]:
     """Explain the fronts of other members, and how many are drawn."""
-    found, kind = counts.ensemble, counts.kind
+    ensemble, kind = counts.ensemble, counts.kind
     keys, plain = list[Key](), len(counts.drawn)
-    outlier = forecast.outlier(found)
+    outlier = forecast.outlier(ensemble)
     if outlier in counts.drawn:
         plain -= 1
-        keys.append((_LINED + OUTLIER, f"front of {kind} {found.members[outlier].name}, outlier"))
+        keys.append((_LINED + OUTLIER, f"front of {kind} {ensemble.members[outlier].name}, outlier"))
     if plain:
         keys.append((_LINED + LINE, f"front{'s' * (plain > 1)} of {plain} other {kind}{'s' * (plain > 1)}"))
     others = counts.count - 1

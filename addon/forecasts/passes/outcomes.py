@@ -51,9 +51,9 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, _camera: str, 
     which = turn(frame, shot.settings.time.rate, len(runs))
     label, run = list(runs.items())[which]
     picture = sensor.read_image(needed[view_of("forecast", label) if label else "forecast"]["png"])[..., :3]
-    found = forecast.of(shot.settings)
+    ensemble = forecast.of(shot.settings)
     shown = forecast.member_of(shot.settings, run, first=not label)
-    counter = [f"outcome {which + 1} of {len(runs)} shown", *_text.member(found, shown)]
+    counter = [f"outcome {which + 1} of {len(runs)} shown", *_text.member(ensemble, shown)]
     area = float(info.burned(run, [times.seconds(run, shot.utc(frame))])[0])
     counter.append(_text.burned(area))
     barred = with_bar(picture, which, len(runs))
@@ -67,10 +67,10 @@ def turn(frame: int, rate: Fraction, runs: int) -> int:
 
 def with_bar(picture: NDArray[np.float32], which: int, runs: int) -> NDArray[np.float32]:
     """Draw a bar at the top of a picture (h, w, 3): a part for each run, the shown one white."""
-    found = picture.copy()
+    bar = picture.copy()
     height, width = picture.shape[:2]
     rows, edges = max(height // _BAR, 2), np.linspace(0, width, runs + 1).round().astype(int)
     for run in range(runs):
-        found[:rows, edges[run] : edges[run + 1] - 2] = 1.0 if run == which else _OTHER
-        found[:rows, edges[run + 1] - 2 : edges[run + 1]] = 0.0
-    return found
+        bar[:rows, edges[run] : edges[run + 1] - 2] = 1.0 if run == which else _OTHER
+        bar[:rows, edges[run + 1] - 2 : edges[run + 1]] = 0.0
+    return bar

@@ -5,7 +5,6 @@ import json
 import time
 from functools import partial
 
-import ensembles
 import firetwin.bench
 import interpolation
 import numpy as np
@@ -90,13 +89,6 @@ def test_every_subject_says_what_it_compares():
         subject = importlib.import_module(name)
         assert subject.__doc__.partition("\n")[0].endswith(".")
         assert callable(subject.run)
-
-
-def test_depths_of_all_pairs_agree(tmp_path):
-    forecast = ensembles.make(tmp_path / "ensemble", 12, 30)
-    arrival = np.load(forecast.path / "arrival.npy")
-    depths = ensembles.compute(forecast)[2]
-    np.testing.assert_allclose(ensembles.numpy_depths(arrival, forecast.areas), depths, atol=5e-6)
 
 
 def test_each_subject_runs_under_its_name(monkeypatch):

@@ -5,12 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import InputError
-from firetwin.forecasts import convert as members_convert
-from firetwin.forecasts.ensemble import ensemble
+from small_ensemble import convert
 
 FUELS = "ncols 3\nnrows 2\nxllcorner 7e5\nyllcorner 4.3e6\ncellsize 30\nNODATA_value -9999\n1 1 1\n1 1 1\n"
 LOG = "simulation,ignition,weather\n1,1,Weather.csv\n2,1,Weather.csv\n3,1,Weather.csv\n"
-OPTIONS = ["2014-09-17T04:45Z", "", "EPSG:32610", 0.0, "", ""]
 
 
 @pytest.fixture
@@ -27,40 +25,31 @@ def results(tmp_path: Path) -> Path:
     return folder
 
 
-def run(folder: Path, out: Path) -> list[str]:
-    said: list[str] = []
-    members_convert.in_process([folder], out, OPTIONS, tell=said.append)
-    return said
-
-
 def test_each_simulation_is_a_member(results, tmp_path):
-    said = run(results, tmp_path / "out")
-    made = ensemble.open(tmp_path / "out")
+    forecast, arrival, messages = convert(results, tmp_path / "out")
     never = np.inf
     minutes = [
         [[0, 10, never], [never, never, 25]],
         [[0, never, never], [12, 15, never]],
         [[0, *[never] * 2], [never] * 3],
     ]
-    arrival = np.stack([made.arrival(index) for index in range(3)])
-    rows = slice(None, None, -1) if made.latitude[0] < made.latitude[-1] else slice(None)
-    np.testing.assert_array_equal(arrival[:, rows], 60.0 * np.array(minutes, np.float32))
-    assert made.horizon == 25 * 60.0
-    assert made.manifest.kind == "forecast"
-    assert said[0] == "3 of 3 members, up to 0.4167 h after 2014-09-17 04:45 UTC"
+    np.testing.assert_array_equal(arrival, 60.0 * np.array(minutes, np.float32))
+    assert forecast.horizon == 25 * 60.0
+    assert forecast.manifest.kind == "forecast"
+    assert messages[0] == "3 of 3 members, up to 0.4167 h after 2014-09-17 04:45 UTC"
 
 
 def test_other_ignitions_do_not_forecast_one_fire(results, tmp_path):
     (results / "ignition_and_weather_log.csv").write_text(LOG.replace("3,1", "3,5"))
-    said = run(results, tmp_path / "out")
-    assert ensemble.open(tmp_path / "out").manifest.kind == "ignitions"
-    assert "the members have 2 ignitions, so they do not forecast one fire" in said
+    forecast, _, messages = convert(results, tmp_path / "out")
+    assert forecast.manifest.kind == "ignitions"
+    assert "the members have 2 ignitions, so they do not forecast one fire" in messages
 
 
 def test_a_simulation_without_an_ignition_is_left_out(results, tmp_path):
     (results / "ignition_and_weather_log.csv").write_text("\n".join(LOG.splitlines()[:3]))
-    said = run(results, tmp_path / "out")
-    assert said[:2] == [
+    messages = convert(results, tmp_path / "out").messages
+    assert messages[:2] == [
         "2 of 3 members, up to 0.4167 h after 2014-09-17 04:45 UTC",
         "left out: 003: has no ignition in ignition_and_weather_log.csv",
     ]
@@ -79,5 +68,5 @@ def test_a_simulation_without_an_ignition_is_left_out(results, tmp_path):
 def test_damaged_files_have_one_reason(results, tmp_path, file, text, reason):
     (results / file).write_text(text)
     with pytest.raises(InputError, match=reason):
-        run(results, tmp_path / "out")
+        convert(results, tmp_path / "out")
     assert {each.name for each in tmp_path.iterdir()} == {"results"}

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import ensembles
 import numpy as np
 import pytest
 from firetwin.errors import Error, InputError
@@ -20,22 +21,26 @@ NEVER, NONE = np.inf, np.nan
 def test_shares_and_quantiles_by_hand(tmp_path):
     # three cells: three outcomes, one member without a simulation there, and 30 % that burn at all
     cells = np.array([[1, 2, 3, 4, 5, 6, 7, 8, 9, 10], [NONE, *[2] * 9], [1, 2, 3, *[NEVER] * 7]])
-    made = make(tmp_path, cells.T.reshape(10, 1, 3))
-    found = statistics.shares(made, [3.0, 24.0])
-    assert found.share[0].tolist() == [[pytest.approx(0.3), 1.0, pytest.approx(0.3)]]
-    assert found.share[1].tolist() == [[1.0, 1.0, pytest.approx(0.3)]]
-    assert found.counted.tolist() == [10, 10]
+    forecast = make(tmp_path, cells.T.reshape(10, 1, 3))
+    shares = statistics.shares(forecast, [3.0, 24.0])
+    assert shares.share[0].tolist() == [[pytest.approx(0.3), 1.0, pytest.approx(0.3)]]
+    assert shares.share[1].tolist() == [[1.0, 1.0, pytest.approx(0.3)]]
+    assert shares.counted.tolist() == [10, 10]
     # the mean of burned members would be 2 in the last cell, where 70 % never burn
-    assert statistics.quantiles(made, [0.1, 0.3, 0.5])[:, 0].tolist() == [[1, 2, 1], [3, 2, 3], [5, 2, NEVER]]
+    assert statistics.quantiles(forecast, [0.1, 0.3, 0.5])[:, 0].tolist() == [
+        [1, 2, 1],
+        [3, 2, 3],
+        [5, 2, NEVER],
+    ]
 
 
 def test_a_member_that_ends_early_leaves_the_count(tmp_path):
-    made = make(tmp_path, [[[1.0]], [[NEVER]], [[9.0]]], ends=[5.0, 24.0, 24.0])
-    found = statistics.shares(made, [4.0, 10.0])
-    assert found.share[:, 0, 0].tolist() == [pytest.approx(1 / 3), 0.5]
-    assert found.counted.tolist() == [3, 2]
-    assert statistics.quantiles(made, [0.5, 1.0])[:, 0, 0].tolist() == [9.0, NEVER]
-    assert np.isnan(statistics.burned_areas(made, [10.0])[0, 0])
+    forecast = make(tmp_path, [[[1.0]], [[NEVER]], [[9.0]]], ends=[5.0, 24.0, 24.0])
+    shares = statistics.shares(forecast, [4.0, 10.0])
+    assert shares.share[:, 0, 0].tolist() == [pytest.approx(1 / 3), 0.5]
+    assert shares.counted.tolist() == [3, 2]
+    assert statistics.quantiles(forecast, [0.5, 1.0])[:, 0, 0].tolist() == [9.0, NEVER]
+    assert np.isnan(statistics.burned_areas(forecast, [10.0])[0, 0])
     short = make(tmp_path / "short", [[[1.0]]], ends=[5.0])
     for ask in (lambda: statistics.quantiles(short, [0.5]), lambda: choice.choose(short)):
         with pytest.raises(Error, match="no member reaches the horizon"):
@@ -51,13 +56,13 @@ times = st.one_of(st.floats(0, 24, width=16), st.just(NEVER), st.just(NONE))
 )
 def test_quantile_is_the_earliest_time_with_its_share(tmp_path_factory, arrival, data):
     weights = data.draw(st.lists(st.integers(1, 4), min_size=len(arrival), max_size=len(arrival)))
-    made = make(tmp_path_factory.mktemp("e"), arrival, weights)
+    forecast = make(tmp_path_factory.mktemp("e"), arrival, weights)
     levels = [0.1, 0.5, 1.0]
-    found = statistics.quantiles(made, levels)
+    quantiles = statistics.quantiles(forecast, levels)
     weight = np.array(weights, float)[:, None, None] * ~np.isnan(arrival)
     total = weight.sum(0)
-    assert (np.isnan(found) == (total == 0)).all()
-    for level, quantile in zip(levels, found, strict=True):
+    assert (np.isnan(quantiles) == (total == 0)).all()
+    for level, quantile in zip(levels, quantiles, strict=True):
         upto = (weight * (arrival <= quantile)).sum(0)
         before = (weight * (arrival < quantile)).sum(0)
         assert ((upto >= level * total - 1e-9) | (total == 0)).all()
@@ -67,11 +72,11 @@ def test_quantile_is_the_earliest_time_with_its_share(tmp_path_factory, arrival,
 def test_statistics_do_not_depend_on_blocks(tmp_path, monkeypatch):
     rng = np.random.default_rng(3)
     arrival = rng.uniform(0, 30, (7, 11, 13)).astype(np.float32)
-    made = make(tmp_path, np.where(arrival > 24, NEVER, arrival))
+    forecast = make(tmp_path, np.where(arrival > 24, NEVER, arrival))
 
     def all_of() -> list:
-        found = statistics.shares(made, [6.0, 12.0]).share, statistics.quantiles(made, [0.3])
-        return [*found, statistics.burned_areas(made, [12.0]), statistics.depths(made, 24.0)]
+        found = statistics.shares(forecast, [6.0, 12.0]).share, statistics.quantiles(forecast, [0.3])
+        return [*found, statistics.burned_areas(forecast, [12.0]), statistics.depths(forecast, 24.0)]
 
     whole = all_of()
     monkeypatch.setattr(ensemble, "_BLOCK", 100)
@@ -85,27 +90,27 @@ def test_middle_of_nested_fires_is_deepest(tmp_path):
     arrival = [np.where(radius <= size, radius, NEVER) for size in sizes]
     far = np.full_like(radius, NEVER)
     far[:3, :3] = 1.0
-    made = make(tmp_path, [*arrival, far])
-    chosen = choice.choose(made)
+    forecast = make(tmp_path, [*arrival, far])
+    chosen = choice.choose(forecast)
     assert (sizes[chosen.typical], sizes[chosen.largest], chosen.smallest, chosen.outlier) == (5.5, 9.5, 5, 5)
-    assert choice.representatives(made, 1) == [2]
-    assert choice.representatives(made, 3) == [2, 5, 0]  # typical, outlier, largest
-    assert sorted(choice.representatives(made, 9)) == list(range(6))
+    assert choice.representatives(forecast, 1) == [2]
+    assert choice.representatives(forecast, 3) == [2, 5, 0]  # typical, outlier, largest
+    assert sorted(choice.representatives(forecast, 9)) == list(range(6))
 
 
 def test_representatives_stand_for_the_most_others(tmp_path):
     """Four members burn one cell, three another, two a third, and one the last: the outlier."""
     cells = [0] * 4 + [1] * 3 + [2] * 2 + [3]
-    made = make(tmp_path, np.where(np.eye(4)[cells][:, None] > 0, 1.0, NEVER))
-    assert choice.representatives(made, 3) == [0, 9, 4]
-    assert choice.representatives(made, 5)[:4] == [0, 9, 4, 7]
+    forecast = make(tmp_path, np.where(np.eye(4)[cells][:, None] > 0, 1.0, NEVER))
+    assert choice.representatives(forecast, 3) == [0, 9, 4]
+    assert choice.representatives(forecast, 5)[:4] == [0, 9, 4, 7]
 
 
 def test_summary_names_members_and_areas(tmp_path):
-    made = make(tmp_path, [[[1, NEVER, NEVER]], [[1, 1, NEVER]], [[1, 1, 1]]])
-    facts = summary.gather(made)
+    forecast = make(tmp_path, [[[1, NEVER, NEVER]], [[1, 1, NEVER]], [[1, 1, 1]]])
+    facts = summary.gather(forecast)
     assert facts["choice"] == {"typical": "01", "smallest": "00", "largest": "02", "outlier": "00"}
-    area = made.areas[0]
+    area = forecast.areas[0]
     assert [each["area"] for each in facts["members"]] == pytest.approx(list(area.cumsum()))
     text = summary.page(facts)
     assert "members     3 of 3" in text
@@ -114,10 +119,10 @@ def test_summary_names_members_and_areas(tmp_path):
 
 def test_depth_by_hand(tmp_path):
     # areas {a}, {a, b}, {b, c}: inclusion of i in j is the common part of i
-    made = make(tmp_path, [[[1, NEVER, NEVER]], [[1, 1, NEVER]], [[NEVER, 1, 1]]])
+    forecast = make(tmp_path, [[[1, NEVER, NEVER]], [[1, 1, NEVER]], [[NEVER, 1, 1]]])
     inside = np.array([[0, 1, 0], [0.5, 0, 0.5], [0, 0.5, 0]])
     expected = np.minimum(inside.sum(1), inside.sum(0)) / 2
-    np.testing.assert_allclose(statistics.depths(made, 24.0), expected, atol=1e-3)
+    np.testing.assert_allclose(statistics.depths(forecast, 24.0), expected, atol=1e-3)
 
 
 def test_depths_are_means_over_pairs(tmp_path):
@@ -127,22 +132,29 @@ def test_depths_are_means_over_pairs(tmp_path):
     arrival = np.hypot(*(np.mgrid[-8:9, -8:9] - centre).swapaxes(0, 1)) * rng.uniform(2, 6, (9, 1, 1))
     arrival[arrival > 24] = NEVER
     arrival[3], arrival[5, :4], arrival[6, 8:] = NEVER, np.nan, NEVER
-    made = make(tmp_path, arrival)
+    forecast = make(tmp_path, arrival)
     for time in (-1.0, 8.0, 24.0):
-        common = statistics.overlaps(made, time)
+        common = statistics.overlaps(forecast, time)
         own = np.diag(common)[:, None]
         inside = np.divide(common, own, out=np.ones_like(common), where=own > 0)
         np.fill_diagonal(inside, 0.0)
         expected = np.minimum(inside.sum(0), inside.sum(1)) / 8
-        np.testing.assert_allclose(statistics.depths(made, time), expected, atol=1e-6)
+        np.testing.assert_allclose(statistics.depths(forecast, time), expected, atol=1e-6)
+
+
+def test_depths_agree_with_those_of_the_benchmark(tmp_path):
+    forecast = ensembles.make(tmp_path / "ensemble", 12, 30)
+    arrival = np.load(forecast.path / "arrival.npy")
+    depths = ensembles.compute(forecast)[2]
+    np.testing.assert_allclose(ensembles.numpy_depths(arrival, forecast.areas), depths, atol=5e-6)
 
 
 def test_a_file_that_becomes_shorter_is_an_error(tmp_path):
-    made = make(tmp_path, np.ones((3, 4, 5)))
-    with (made.path / ensemble.ARRIVAL).open("r+b") as file:
+    forecast = make(tmp_path, np.ones((3, 4, 5)))
+    with (forecast.path / ensemble.ARRIVAL).open("r+b") as file:
         file.truncate(file.seek(0, 2) - 4)
     with pytest.raises(InputError, match="arrival"):
-        list(made.blocks())
+        list(forecast.blocks())
 
 
 def test_members_that_fail_are_named_and_not_counted(tmp_path):
@@ -150,10 +162,10 @@ def test_members_that_fail_are_named_and_not_counted(tmp_path):
     members = [(Member("01"), np.ones((1, 2), np.float32)), (Member("02"), "is empty")]
     axes = np.array([38.8]), np.array([-120.6, -120.5])
     write.write(tmp_path / "out", head, *axes, members)
-    made = ensemble.open(tmp_path / "out")
-    assert [member.name for member in made.members] == ["01"]
-    assert made.left_out == (LeftOut("00", "failed"), LeftOut("02", "is empty"))
-    assert statistics.shares(made, [2.0]).counted.tolist() == [1]
+    forecast = ensemble.open(tmp_path / "out")
+    assert [member.name for member in forecast.members] == ["01"]
+    assert forecast.left_out == (LeftOut("00", "failed"), LeftOut("02", "is empty"))
+    assert statistics.shares(forecast, [2.0]).counted.tolist() == [1]
     with pytest.raises(InputError, match="no member has arrival times; 02: is empty"):
         write.write(tmp_path / "none", head, *axes, members[1:])
     assert not (tmp_path / "none").exists()
@@ -198,13 +210,13 @@ def test_bad_manifests_have_one_reason(tmp_path, text, reason):
 
 def test_manifest_survives_hostile_names(tmp_path):
     hostile = 'a "quoted"\\ name, \N{FIRE}'
-    made = Manifest(
+    forecast = Manifest(
         *(hostile, "model", ISSUED, 3600.0, (Member(hostile, 2.5, 60.0, Path("runs/a")),)),
         *((LeftOut("b", hostile),), "wind", "fuel", True, "UTC", "files"),
     )
     path = tmp_path / "ensemble.toml"
-    path.write_text(manifest.text(made), encoding="utf-8")
-    assert manifest.read(path) == made
+    path.write_text(manifest.text(forecast), encoding="utf-8")
+    assert manifest.read(path) == forecast
 
 
 @pytest.mark.parametrize(
@@ -229,13 +241,13 @@ def test_a_probability_is_no_fire(tmp_path, name, reason):
 
 
 def test_a_damaged_folder_is_one_error(tmp_path):
-    made = make(tmp_path, [[[1.0]]])
-    np.save(made.path / "arrival.npy", np.zeros((2, 1, 1), np.float32))
+    forecast = make(tmp_path, [[[1.0]]])
+    np.save(forecast.path / "arrival.npy", np.zeros((2, 1, 1), np.float32))
     with pytest.raises(InputError, match=r"arrival.npy: holds float32 \(2, 1, 1\), not float32 \(1, 1, 1\)"):
-        ensemble.open(made.path)
-    (made.path / "arrival.npy").write_bytes(b"x")
+        ensemble.open(forecast.path)
+    (forecast.path / "arrival.npy").write_bytes(b"x")
     with pytest.raises(InputError, match=r"arrival.npy: "):
-        ensemble.open(made.path)
+        ensemble.open(forecast.path)
 
 
 @pytest.fixture
@@ -265,11 +277,11 @@ def test_runs_become_members(make_members, tmp_path):
     )
     (folder / "03" / "run.toml").write_text("start = 3", encoding="utf-8")
     gather.convert(folder, tmp_path / "out")
-    made = ensemble.open(tmp_path / "out")
-    assert [member.name for member in made.members] == ["00", "01"]
-    assert [each.name for each in made.left_out] == ["02", "03"]
-    assert made.left_out[0].reason == "nothing burns"
-    first, second = made.arrival(0), made.arrival(1)
+    forecast = ensemble.open(tmp_path / "out")
+    assert [member.name for member in forecast.members] == ["00", "01"]
+    assert [each.name for each in forecast.left_out] == ["02", "03"]
+    assert forecast.left_out[0].reason == "nothing burns"
+    first, second = forecast.arrival(0), forecast.arrival(1)
     assert np.isnan(first[:, -1]).all()  # outside of its grid: not simulated
     assert np.isnan(second[:, 0]).all()
     np.testing.assert_array_equal(first[:, :-1], second[:, 1:])
@@ -291,6 +303,6 @@ def test_members_on_other_cells_or_with_other_starts_are_refused(make_members, t
     head = 'issued = 2014-09-17T04:45:00Z\n[[member]]\nrun = "00"\n[[member]]\nrun = "01"\n'
     (folder / "ensemble.toml").write_text(head, encoding="utf-8")
     gather.convert(folder, tmp_path / "out")
-    made = ensemble.open(tmp_path / "out")
-    burned = np.isfinite(made.arrival(0))
-    assert (made.arrival(1)[burned] - made.arrival(0)[burned] == 7200.0).all()
+    forecast = ensemble.open(tmp_path / "out")
+    burned = np.isfinite(forecast.arrival(0))
+    assert (forecast.arrival(1)[burned] - forecast.arrival(0)[burned] == 7200.0).all()

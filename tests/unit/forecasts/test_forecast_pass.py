@@ -186,13 +186,13 @@ def test_shares_of_other_kinds_are_refused_and_their_lines_are_not(scene):
         ShotSource(scene=str(scene)).shot()
     scene.write_text(scene.read_text().replace('member = "01"', 'member = "01"\nshares = false'))
     shot = ShotSource(scene=str(scene)).shot()
-    found = shot_forecast.of(shot.settings)
-    counts = _text.Counts(found, shot.utc(2), 1, 4, (0, 2, 3), False)
+    forecast = shot_forecast.of(shot.settings)
+    counts = _text.Counts(forecast, shot.utc(2), 1, 4, (0, 2, 3), False)
     assert _text.caption(shot, counts)[1].startswith("burning: scenario 01 of 4")
-    outlier = shot_forecast.outlier(found)
+    outlier = shot_forecast.outlier(forecast)
     assert _text.legend(shot, counts) == [
         ("line " + _text.SHOWN, "front of scenario 01, burning"),
-        ("line " + _text.OUTLIER, f"front of scenario {found.members[outlier].name}, outlier"),
+        ("line " + _text.OUTLIER, f"front of scenario {forecast.members[outlier].name}, outlier"),
         ("line " + _text.LINE, "fronts of 2 other scenarios"),
     ]
 
@@ -206,17 +206,17 @@ def test_a_shot_after_the_end_of_its_member_is_refused(scene):
 
 def test_captions_and_legend_name_member_times_and_counts(scene):
     shot = ShotSource(scene=str(scene)).shot()
-    found = shot_forecast.of(shot.settings)
-    roles = shot_forecast.roles(found, 1)
-    counts = _text.Counts(found, shot.utc(2), 1, 3, (2,), True)
+    forecast = shot_forecast.of(shot.settings)
+    roles = shot_forecast.roles(forecast, 1)
+    counts = _text.Counts(forecast, shot.utc(2), 1, 3, (2,), True)
     assert _text.caption(shot, counts) == [
         "synthetic",
         f"burning: member 01 of 4{f' ({roles[0]})' if roles else ''}, stripes",
         "issued 16 Sep 2014 21:45 PDT",
         "valid 16 Sep 2014 21:46 PDT",
     ]
-    found = replace(found, manifest=replace(found.manifest, left_out=(LeftOut("04", "empty"),)))
-    words = [text for _, text in _text.legend(shot, replace(counts, ensemble=found))]
+    forecast = replace(forecast, manifest=replace(forecast.manifest, left_out=(LeftOut("04", "empty"),)))
+    words = [text for _, text in _text.legend(shot, replace(counts, ensemble=forecast))]
     assert words == [
         *(
             "burned by 21:46 in",
@@ -327,11 +327,11 @@ def test_places_behind_hills_and_smoke_are_not_named(scene):
 
 def test_the_bar_has_a_part_for_each_run():
     grey = np.full((120, 90, 3), 0.5, np.float32)
-    found = outcomes.with_bar(grey, 1, 3)
-    assert np.array_equal(found[2:], grey[2:])
-    assert (found[:2, 31:57] == 1.0).all()
-    assert found[:2, :30].max() < 0.5
-    assert found[:2, 60:].max() < 0.5
+    picture = outcomes.with_bar(grey, 1, 3)
+    assert np.array_equal(picture[2:], grey[2:])
+    assert (picture[:2, 31:57] == 1.0).all()
+    assert picture[:2, :30].max() < 0.5
+    assert picture[:2, 60:].max() < 0.5
 
 
 def test_outcomes_are_made_of_the_forecast_pictures_of_all_runs(scene, tmp_path, monkeypatch):
@@ -386,12 +386,12 @@ def test_a_split_names_each_member_with_its_area_and_has_one_legend(scene, tmp_p
 
 def test_members_of_other_weights_are_said_to_count_equally(scene):
     shot = ShotSource(scene=str(scene)).shot()
-    found = shot_forecast.of(shot.settings)
-    counts = _text.Counts(found, shot.utc(2), 1, 4, (), False)
+    forecast = shot_forecast.of(shot.settings)
+    counts = _text.Counts(forecast, shot.utc(2), 1, 4, (), False)
     said = ("", "members count equally, weights not used")
     assert said not in _text.legend(shot, counts)
-    members = (replace(found.members[0], weight=0.5), *found.members[1:])
-    weighted = replace(found, manifest=replace(found.manifest, members=members))
+    members = (replace(forecast.members[0], weight=0.5), *forecast.members[1:])
+    weighted = replace(forecast, manifest=replace(forecast.manifest, members=members))
     assert said in _text.legend(shot, replace(counts, ensemble=weighted))
 
 

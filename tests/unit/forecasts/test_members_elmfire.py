@@ -5,20 +5,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import InputError
-from firetwin.forecasts import convert as members_convert
-from firetwin.forecasts.ensemble import ensemble
+from small_ensemble import convert
 
 ASCII = "ncols 3\nnrows 2\nxllcorner 700000\nyllcorner 4300000\ncellsize 30\nNODATA_value -9999\n"
-OPTIONS = ["2014-09-17T04:45Z", "", "EPSG:32610", 0.0, "", ""]
 HEAD = "icase, Meteorology band, x, y, tstop (h)\n"
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     pytest.importorskip("pyproj")
-    made = tmp_path / "cases"
-    made.mkdir()
-    return made
+    cases = tmp_path / "cases"
+    cases.mkdir()
+    return cases
 
 
 def arrival_map(folder: Path, case: int, seconds: int, rows: str) -> None:
@@ -40,15 +38,6 @@ def burned_list(path: Path, cells: list[tuple[int, int, float]]) -> None:
     )
 
 
-def run(folder: Path, out: Path) -> tuple[ensemble.Ensemble, np.ndarray, list[str]]:
-    """Convert; return the ensemble, its arrival times with rows from the north, and what was printed."""
-    said: list[str] = []
-    members_convert.in_process([folder], out, OPTIONS, tell=said.append)
-    made = ensemble.open(out)
-    rows = slice(None, None, -1) if made.latitude[0] < made.latitude[-1] else slice(None)
-    return made, np.stack([made.arrival(index)[rows] for index in range(len(made.members))]), said
-
-
 def test_each_case_is_a_member_by_its_last_map(folder, tmp_path):
     arrival_map(folder, 1, 3600, "10 -9999 -9999\n-9999 -9999 -9999\n")
     arrival_map(folder, 1, 7200, "10 5000 -9999\n-9999 -9999 -9999\n")
@@ -57,24 +46,24 @@ def test_each_case_is_a_member_by_its_last_map(folder, tmp_path):
     (folder / "fire_size_stats.csv").write_text(
         HEAD + "".join(f"{case}, 1, 5.0, 6.0, 2\n" for case in (1, 2, 3, 4))
     )
-    made, arrival, said = run(folder, tmp_path / "out")
+    forecast, arrival, messages = convert(folder, tmp_path / "out")
     never = np.inf
     expected = [[[10, 5000, never], [never] * 3], [[10, never, never], [6000, never, never]]]
     np.testing.assert_array_equal(arrival, np.array(expected, np.float32))
-    assert [each.reason for each in made.left_out] == [
+    assert [each.reason for each in forecast.left_out] == [
         "nothing burns",
         "is in fire_size_stats.csv, and has no arrival times",
     ]
-    assert made.horizon == 7200.0
-    assert made.manifest.kind == "forecast"
-    assert said[0].startswith("2 of 4 members")
+    assert forecast.horizon == 7200.0
+    assert forecast.manifest.kind == "forecast"
+    assert messages[0].startswith("2 of 4 members")
 
 
 def test_lists_of_burned_cells_count_rows_from_the_south(folder, tmp_path):
     (folder / "fbfm40.asc").write_text(ASCII + "1 1 1\n1 1 1\n")
     burned_list(folder / "toa_0001_0000001.bin", [(1, 1, 60.0), (3, 2, 120.0)])
     burned_list(folder / "toa_0001_0000002.bin", [(2, 2, 30.0)])
-    _, arrival, _ = run(folder, tmp_path / "out")
+    _, arrival, _ = convert(folder, tmp_path / "out")
     assert arrival[0, 1, 0] == 60.0
     assert arrival[0, 0, 2] == 120.0
     assert arrival[1, 0, 1] == 30.0
@@ -87,7 +76,7 @@ def test_maps_on_other_cells_are_refused(folder, tmp_path):
     moved = folder / "time_of_arrival_0000002_0007200.asc"
     moved.write_text(moved.read_text().replace("700000", "700001"))
     with pytest.raises(InputError, match=r"0000002_0007200.asc: has other cells than time_of_"):
-        run(folder, tmp_path / "out")
+        convert(folder, tmp_path / "out")
 
 
 def test_a_cut_list_is_left_out(folder, tmp_path):
@@ -96,9 +85,9 @@ def test_a_cut_list_is_left_out(folder, tmp_path):
     burned_list(folder / "toa_0001_0000002.bin", [(2, 2, 30.0), (1, 2, 40.0)])
     whole = (folder / "toa_0001_0000002.bin").read_bytes()
     (folder / "toa_0001_0000002.bin").write_bytes(whole[:24])
-    made, _, _ = run(folder, tmp_path / "out")
-    assert [each.name for each in made.left_out] == ["0000002"]
-    assert "its records have other lengths" in made.left_out[0].reason
+    forecast, _, _ = convert(folder, tmp_path / "out")
+    assert [each.name for each in forecast.left_out] == ["0000002"]
+    assert "its records have other lengths" in forecast.left_out[0].reason
 
 
 def test_other_starts_are_refused_and_other_ignitions_are_named(folder, tmp_path):
@@ -107,9 +96,9 @@ def test_other_starts_are_refused_and_other_ignitions_are_named(folder, tmp_path
     table = folder / "fire_size_stats.csv"
     table.write_text(HEAD + "1, 1, 5.0, 6.0, 2\n2, 7, 5.0, 6.0, 2\n")
     with pytest.raises(InputError, match="begin at 2 weather bands, and members have one start"):
-        run(folder, tmp_path / "out")
+        convert(folder, tmp_path / "out")
     table.write_text(HEAD + "1, 1, 5.0, 6.0, 2\n2, 1, 5.0, 8.0, 2\n")
-    assert run(folder, tmp_path / "out")[0].manifest.kind == "ignitions"
+    assert convert(folder, tmp_path / "out").ensemble.manifest.kind == "ignitions"
     table.write_text(HEAD + "1, 1, five, 6.0, 2\n")
     with pytest.raises(InputError, match=r"stats.csv:2: has a case without the numbers"):
-        run(folder, tmp_path / "other")
+        convert(folder, tmp_path / "other")

@@ -5,12 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import InputError
-from firetwin.forecasts import convert as members_convert
-from firetwin.forecasts.ensemble import ensemble
+from small_ensemble import convert
 
 pytest.importorskip("pyproj")
 ASCII = "ncols 3\nnrows 2\nxllcorner 700000\nyllcorner 4300000\ncellsize 30\n1 1 1\n1 1 1\n"
-OPTIONS = ["2014-09-17T04:45Z", "", "EPSG:32610", 0.0, "", ""]
 HEAD = "simulation,ignition-row,ignition-col,max-runtime,temperature\n"
 NEVER = np.inf
 
@@ -27,52 +25,43 @@ def burned_list(folder: Path, number: int, cells: list[tuple[int, int, float]]) 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    made = tmp_path / "outputs"
-    made.mkdir()
-    (made / "dem.asc").write_text(ASCII)
-    burned_list(made, 1, [(1, 1, 60.0), (3, 2, 120.0)])
-    burned_list(made, 2, [(2, 2, 30.0)])
-    return made
-
-
-def run(folder: Path, out: Path) -> tuple[ensemble.Ensemble, np.ndarray, list[str]]:
-    """Convert; return the ensemble, its arrival times with rows from the north, and what was printed."""
-    said: list[str] = []
-    members_convert.in_process([folder], out, OPTIONS, tell=said.append)
-    made = ensemble.open(out)
-    rows = slice(None, None, -1) if made.latitude[0] < made.latitude[-1] else slice(None)
-    return made, np.stack([made.arrival(index)[rows] for index in range(len(made.members))]), said
+    outputs = tmp_path / "outputs"
+    outputs.mkdir()
+    (outputs / "dem.asc").write_text(ASCII)
+    burned_list(outputs, 1, [(1, 1, 60.0), (3, 2, 120.0)])
+    burned_list(outputs, 2, [(2, 2, 30.0)])
+    return outputs
 
 
 def test_rows_count_from_the_south(folder, tmp_path):
-    made, arrival, said = run(folder, tmp_path / "out")
+    forecast, arrival, messages = convert(folder, tmp_path / "out")
     expected = [[[NEVER, NEVER, 120], [60, NEVER, NEVER]], [[NEVER, 30, NEVER], [NEVER] * 3]]
     np.testing.assert_array_equal(arrival, np.array(expected, np.float32))
-    assert made.manifest.kind == "forecast"
-    assert made.horizon == 120.0
-    assert any("which burn at time 0, are not known" in text for text in said)
+    assert forecast.manifest.kind == "forecast"
+    assert forecast.horizon == 120.0
+    assert any("which burn at time 0, are not known" in text for text in messages)
 
 
 def test_ignitions_and_run_times_come_from_the_table(folder, tmp_path):
     table = folder / "summary_stats.csv"
     table.write_text(HEAD + "1,1,1,60,80\n2,1,1,30,80\n3,1,1,60,80\n")
-    made, arrival, _ = run(folder, tmp_path / "out")
+    forecast, arrival, _ = convert(folder, tmp_path / "out")
     assert arrival[0, 1, 1] == arrival[1, 1, 1] == 0.0
-    assert [member.end for member in made.members] == [3600.0, 1800.0]
-    assert made.horizon == 3600.0
-    assert made.left_out[0].reason == "is in summary_stats.csv, and has no arrival times"
+    assert [member.end for member in forecast.members] == [3600.0, 1800.0]
+    assert forecast.horizon == 3600.0
+    assert forecast.left_out[0].reason == "is in summary_stats.csv, and has no arrival times"
     table.write_text(HEAD + "1,1,1,60,80\n2,0,1,60,80\n")
-    assert run(folder, tmp_path / "moved")[0].manifest.kind == "ignitions"
+    assert convert(folder, tmp_path / "moved").ensemble.manifest.kind == "ignitions"
     table.write_text(HEAD + "1,1,1,60,80\n2,0,,60,80\n")
     with pytest.raises(InputError, match=r"summary_stats.csv:3: has no numbers simulation, ignition-row"):
-        run(folder, tmp_path / "other")
+        convert(folder, tmp_path / "other")
 
 
 def test_a_number_in_two_folders_is_refused(folder, tmp_path):
     (tmp_path / "more").mkdir()
     other = burned_list(tmp_path / "more", 2, [(1, 1, 60.0)])
     with pytest.raises(InputError, match=rf"{other.name}: is the same member as .*outputs"):
-        members_convert.in_process([folder, other.parent], tmp_path / "out", OPTIONS)
+        convert([folder, other.parent], tmp_path / "out")
 
 
 def test_damaged_lists_are_left_out(folder, tmp_path):
@@ -80,11 +69,11 @@ def test_damaged_lists_are_left_out(folder, tmp_path):
     path.write_bytes(path.read_bytes()[:12])
     burned_list(folder, 4, [(4, 1, 60.0)])
     burned_list(folder, 5, [(1, 1, -60.0)])
-    made, _, _ = run(folder, tmp_path / "out")
-    reasons = [each.reason for each in made.left_out]
+    forecast, _, _ = convert(folder, tmp_path / "out")
+    reasons = [each.reason for each in forecast.left_out]
     assert "too few for its cells" in reasons[0]
     assert "has cell (4, 1) where the raster has 3 x 2" in reasons[1]
     assert "negative or not numbers" in reasons[2]
     (folder / "dem.asc").unlink()
     with pytest.raises(InputError, match="give a raster of the inputs too"):
-        run(folder, tmp_path / "other")
+        convert(folder, tmp_path / "other")

@@ -5,14 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import InputError
-from firetwin.forecasts import convert as members_convert
-from firetwin.forecasts.ensemble import ensemble
 from firetwin.run import readers
 from firetwin.run.models import probability_maps
+from small_ensemble import convert
 
 pytest.importorskip("pyproj")
 ASCII = "ncols 2\nnrows 2\nxllcorner {x}\nyllcorner 4300000\ncellsize 30\nNODATA_value -9999\n"
-OPTIONS = ["2014-09-17T04:45Z", "", "EPSG:32610", 0.0, "", ""]
 NEVER = np.inf
 
 
@@ -22,53 +20,45 @@ def grid(path: Path, rows: str, x: float = 700000) -> Path:
     return path
 
 
-def run(folder: Path, out: Path, *start: str) -> tuple[ensemble.Ensemble, np.ndarray]:
-    """Convert; return the ensemble, and its arrival times with rows from the north."""
-    members_convert.in_process([folder], out, [*start, *OPTIONS[len(start) :]])
-    made = ensemble.open(out)
-    rows = slice(None, None, -1) if made.latitude[0] < made.latitude[-1] else slice(None)
-    return made, np.stack([made.arrival(index)[rows] for index in range(len(made.members))])
-
-
 def test_rasters_of_farsite_are_in_minutes(tmp_path):
     folder = tmp_path / "farsite"
     grid(folder / "dry_ArrivalTime.asc", "1 2\n-9999 4\n")
     grid(folder / "wet_Arrival Time.asc", "1 -9999\n-9999 -9999\n")
     grid(folder / "no_ArrivalTime.asc", "-9999 -9999\n-9999 -9999\n")
     grid(folder / "bad_ArrivalTime.asc", "1 two\n3 4\n")
-    made, arrival = run(folder, tmp_path / "out")
-    assert [member.name for member in made.members] == ["dry", "wet"]
+    forecast, arrival, _ = convert(folder, tmp_path / "out")
+    assert [member.name for member in forecast.members] == ["dry", "wet"]
     np.testing.assert_array_equal(arrival, [[[60, 120], [NEVER, 240]], [[60, NEVER], [NEVER, NEVER]]])
-    assert [each.name for each in made.left_out] == ["bad", "no"]
-    assert made.horizon == 240.0
+    assert [each.name for each in forecast.left_out] == ["bad", "no"]
+    assert forecast.horizon == 240.0
     grid(folder / "moved_ArrivalTime.asc", "1 2\n3 4\n", x=700001)
     with pytest.raises(InputError, match=r"moved_ArrivalTime.asc: has other cells than dry_Arr"):
-        run(folder, tmp_path / "other")
+        convert(folder, tmp_path / "other")
 
 
 def test_ranks_are_in_hours_and_are_not_a_forecast(tmp_path):
     folder = tmp_path / "ky-town_20231105_191700"
     grid(folder / "time-of-arrival_10.asc", "0 0\n0 0.5\n")
     grid(folder / "time-of-arrival_90.asc", "0 2\n1 0.5\n")
-    made, arrival = run(folder, tmp_path / "out", "")
-    assert made.manifest.kind == "ranked"
-    assert [member.name for member in made.members] == ["size percentile 10", "size percentile 90"]
+    forecast, arrival, _ = convert(folder, tmp_path / "out", "")
+    assert forecast.manifest.kind == "ranked"
+    assert [member.name for member in forecast.members] == ["size percentile 10", "size percentile 90"]
     np.testing.assert_array_equal(arrival, [[[NEVER, NEVER], [NEVER, 1800]], [[NEVER, 7200], [3600, 1800]]])
-    assert f"{made.issued:%F %T}" == "2023-11-05 19:17:00"
+    assert f"{forecast.issued:%F %T}" == "2023-11-05 19:17:00"
     grid(folder / "time-of-arrival_05.asc", "0 two\n0 0.5\n")
-    made, _ = run(folder, tmp_path / "damaged", "")
-    assert [each.name for each in made.left_out] == ["size percentile 05"]
-    assert len(made.members) == 2
+    forecast, _, _ = convert(folder, tmp_path / "damaged", "")
+    assert [each.name for each in forecast.left_out] == ["size percentile 05"]
+    assert len(forecast.members) == 2
     other = tmp_path / "20231105_191700" / "elmfire" / "landfire"
     for name in ("10", "90"):
         grid(other / name / "time-of-arrival.asc", "0 0\n0 0.5\n")
-    assert len(run(other, tmp_path / "pyrecast")[0].members) == 2
+    assert len(convert(other, tmp_path / "pyrecast").ensemble.members) == 2
 
 
 def test_a_name_in_two_folders_is_refused(tmp_path):
     folders = [grid(tmp_path / name / "dry_ArrivalTime.asc", "1 2\n3 4\n").parent for name in "ab"]
     with pytest.raises(InputError, match=r"b.dry_ArrivalTime.asc: is the same member as .*a.dry_Arr"):
-        members_convert.in_process(list(folders), tmp_path / "out", OPTIONS)
+        convert(folders, tmp_path / "out")
 
 
 @pytest.mark.parametrize("name", ["min_arrival_time_60", "time-of-arrival_50"])

@@ -5,10 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import InputError
-from firetwin.forecasts import convert as members_convert
-from firetwin.forecasts.ensemble import ensemble
+from small_ensemble import convert
 
-OPTIONS = ["2014-09-17T04:45Z", "", "", 0.0, "", ""]
 VALUES = np.zeros((2, 3, 2, 4))  # member, time, y, x
 VALUES[0, 1:, 0, 0] = 0.6
 VALUES[0, 2, 0, 1] = 0.5
@@ -42,14 +40,6 @@ def describe(tmp_path: Path):
         return folder
 
     return make
-
-
-def run(folder: Path, out: Path) -> np.ndarray:
-    """Convert, and return arrival times (m, ny, nx), rows from the north."""
-    members_convert.in_process([folder], out, OPTIONS)
-    made = ensemble.open(out)
-    rows = slice(None, None, -1) if made.latitude[0] < made.latitude[-1] else slice(None)
-    return np.stack([made.arrival(index)[rows] for index in range(len(made.members))])
 
 
 def npz(folder: Path) -> None:
@@ -86,13 +76,13 @@ def geotiff(folder: Path) -> None:
 def test_every_container_gives_the_same_members(describe, tmp_path, write):
     folder = describe()
     write(folder)
-    np.testing.assert_array_equal(run(folder, tmp_path / "out"), ARRIVAL)
+    np.testing.assert_array_equal(convert(folder, tmp_path / "out", projection="").arrival, ARRIVAL)
 
 
 def test_axes_in_any_order(describe, tmp_path):
     folder = describe(axes='["y", "time", "x", "member"]')
     np.savez(folder / "a.npz", prediction=VALUES.transpose(2, 1, 3, 0))
-    np.testing.assert_array_equal(run(folder, tmp_path / "out"), ARRIVAL)
+    np.testing.assert_array_equal(convert(folder, tmp_path / "out", projection="").arrival, ARRIVAL)
 
 
 def test_arrival_times_in_hours(describe, tmp_path):
@@ -101,7 +91,7 @@ def test_arrival_times_in_hours(describe, tmp_path):
     hours[1, 0, 0] = np.nan
     np.savez(folder / "a.npz", prediction=hours)
     expected = np.where(np.isnan(ARRIVAL), NEVER, ARRIVAL)
-    np.testing.assert_array_equal(run(folder, tmp_path / "out"), expected)
+    np.testing.assert_array_equal(convert(folder, tmp_path / "out", projection="").arrival, expected)
 
 
 @pytest.mark.parametrize(
@@ -124,5 +114,5 @@ def test_nothing_is_guessed(describe, tmp_path, changes, reason):
     folder = describe(**changes)
     npz(folder)
     with pytest.raises(InputError, match=reason):
-        run(folder, tmp_path / "out")
+        convert(folder, tmp_path / "out", projection="")
     assert not (tmp_path / "out").exists()

@@ -23,8 +23,8 @@ def make(folder, cells, weights=None, kind="forecast"):
     write.write(
         folder / "e", about, np.array([38.0, 38.01]), longitude, zip(members, _rows(arrival), strict=True)
     )
-    found = place_arrivals.open_forecast(folder / "e", "this list")
-    return place_arrivals.sample(found, [38.0] * (len(cells) + 1), [*longitude, -119.0])
+    arrivals = place_arrivals.open_forecast(folder / "e", "this list")
+    return place_arrivals.sample(arrivals, [38.0] * (len(cells) + 1), [*longitude, -119.0])
 
 
 def _rows(arrival):
@@ -32,22 +32,22 @@ def _rows(arrival):
 
 
 def test_quantiles_count_never_and_leave_out_what_is_not_simulated(tmp_path):
-    found = make(tmp_path, [[1, 2, 3, 4], [1, 9, NEVER, NEVER], [NONE, 5, NEVER, 6], [-1, -1, NEVER, 7]])
-    assert found.by(0, 0.1) == HOUR
-    assert found.by(1, 0.5) == 9 * HOUR
-    assert found.by(1, 0.9) == NEVER
-    assert found.by(2, 0.5) == 6 * HOUR
-    assert np.isnan(found.by(4, 0.5))
-    assert found.reached.tolist() == [True] * 4 + [False]
-    assert found.simulated.tolist() == [True] * 4 + [False]
+    arrivals = make(tmp_path, [[1, 2, 3, 4], [1, 9, NEVER, NEVER], [NONE, 5, NEVER, 6], [-1, -1, NEVER, 7]])
+    assert arrivals.by(0, 0.1) == HOUR
+    assert arrivals.by(1, 0.5) == 9 * HOUR
+    assert arrivals.by(1, 0.9) == NEVER
+    assert arrivals.by(2, 0.5) == 6 * HOUR
+    assert np.isnan(arrivals.by(4, 0.5))
+    assert arrivals.reached.tolist() == [True] * 4 + [False]
+    assert arrivals.simulated.tolist() == [True] * 4 + [False]
 
 
 def test_sentences(tmp_path):
-    found = make(
+    arrivals = make(
         tmp_path,
         [[1, 2, 3, 4], [1, 9, NEVER, NEVER], [NONE, 5, NEVER, 6], [-1, -1, NEVER, 7], [NEVER] * 4],
     )
-    assert [found.sentence(place, "UTC") for place in range(6)] == [
+    assert [arrivals.sentence(place, "UTC") for place in range(6)] == [
         "1 of 4 by 17 Sep 01:00, 2 of 4 by 17 Sep 02:00",
         f"1 of 4 by 17 Sep 01:00, 2 of 4 by 17 Sep 09:00; not in 2 of 4 by 18 Sep 00:00{END}",
         f"1 of 3 by 17 Sep 05:00, 2 of 3 by 17 Sep 06:00; not in 1 of 3 by 18 Sep 00:00{END}",
@@ -61,9 +61,9 @@ def test_sentences(tmp_path):
 
 def test_members_near_a_place_without_fuel_are_counted(tmp_path):
     """Cells are 880 m wide: the fire of one member is in the next cell, and of another one after the next."""
-    made = make(tmp_path, [[NEVER] * 3, [2, NEVER, NEVER], [3, 3, NEVER], [NEVER] * 3])
-    assert made.near.tolist() == [1, 0, 0, 2, 0]
-    assert made.sentence(0, "UTC") == f"not in 3 of 3 (within 1 km in 1) by 18 Sep 00:00{END}"
+    arrivals = make(tmp_path, [[NEVER] * 3, [2, NEVER, NEVER], [3, 3, NEVER], [NEVER] * 3])
+    assert arrivals.near.tolist() == [1, 0, 0, 2, 0]
+    assert arrivals.sentence(0, "UTC") == f"not in 3 of 3 (within 1 km in 1) by 18 Sep 00:00{END}"
 
 
 def test_weights_are_said_not_to_be_used(tmp_path):

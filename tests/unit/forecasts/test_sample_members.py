@@ -49,9 +49,9 @@ def test_member_zero_is_the_sample_and_others_depend_on_their_number(spread):
 def test_the_model_reproduces_the_fire_that_it_is_fitted_to(spread):
     burned = np.where(spread.arrival <= 0, 0.0, np.inf)
     times = members.travel(spread.rate, burned)
-    mine, known = times <= stored.MINUTES * 60.0, np.isfinite(spread.arrival)
-    assert mine.sum() == pytest.approx(known.sum(), rel=0.1)
-    assert (mine & known).sum() / (mine | known).sum() > 0.7
+    mine, burned = times <= stored.MINUTES * 60.0, np.isfinite(spread.arrival)
+    assert mine.sum() == pytest.approx(burned.sum(), rel=0.1)
+    assert (mine & burned).sum() / (mine | burned).sum() > 0.7
 
 
 def test_the_fine_grid_interpolates():
@@ -68,13 +68,13 @@ def test_the_fine_grid_interpolates():
 
 def test_an_ensemble_and_the_run_of_a_member(tmp_path):
     synthetic.write(tmp_path / "ensemble", 2)
-    made = ensemble.open(tmp_path / "ensemble")
-    assert made.manifest.synthetic
-    assert [member.name for member in made.members] == ["00", "01"]
+    forecast = ensemble.open(tmp_path / "ensemble")
+    assert forecast.manifest.synthetic
+    assert [member.name for member in forecast.members] == ["00", "01"]
     sample.write(tmp_path / "run", 2, member=1)
     assert "member 01" in (tmp_path / "run" / "run.toml").read_text(encoding="utf-8")
     run = np.load(tmp_path / "run" / "fuel_arrival_time.npy")
     coarse = np.isfinite(run).reshape(members.CELLS, 4, members.CELLS, 4).any((1, 3))
-    np.testing.assert_array_equal(coarse, np.isfinite(made.arrival(1)))
+    np.testing.assert_array_equal(coarse, np.isfinite(forecast.arrival(1)))
     with pytest.raises(UsageError, match="1 is not a number of members from 2 to 200"):
         synthetic.write(tmp_path / "one", 1)

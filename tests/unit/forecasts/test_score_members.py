@@ -42,18 +42,18 @@ def seen(hours: float, radius: float) -> observations.Observations:
 
 
 def test_round_fires_by_their_closed_forms(forecast):
-    found = members.score(forecast, seen(1.0, 1440.0))
-    (row,) = found["dates"]
+    scores = members.score(forecast, seen(1.0, 1440.0))
+    (row,) = scores["dates"]
     inner, middle, outer = (np.pi * (3600.0 * speed) ** 2 for speed in SPEEDS)
-    assert found["ensemble"]["members"] == 3
-    assert found["ensemble"]["of"] == 4
+    assert scores["ensemble"]["members"] == 3
+    assert scores["ensemble"]["of"] == 4
     assert row["observed_area"] == pytest.approx(middle, rel=2e-2)
     assert row["area"]["mean"] == pytest.approx((inner + middle + outer) / 3, rel=2e-2)
     assert row["area"]["spread"] == pytest.approx(np.std([inner, middle, outer], ddof=1), rel=5e-2)
     assert row["jaccard"]["best"] == ["0.4", pytest.approx(1.0, abs=0.01)]
     assert row["jaccard"]["worst"] == ["0.3", pytest.approx(inner / middle, abs=0.02)]
     # wrong by a third in two rings: 2 of 3 burned within, 1 of 3 without
-    total = found["domain"]["area"]
+    total = scores["domain"]["area"]
     wrong = ((middle - inner) + (outer - middle)) / 9 / total
     assert row["brier"]["score"] == pytest.approx(wrong, rel=5e-2)
     assert [bin["probability"] for bin in row["reliability"]] == pytest.approx([0, 1 / 3, 2 / 3, 1])
@@ -63,13 +63,13 @@ def test_round_fires_by_their_closed_forms(forecast):
 
 def test_arrival_is_censored_at_the_last_perimeter(forecast):
     """A fire that was seen nowhere near: what members burned by then is early by the rest of the time."""
-    found = members.score(forecast, seen(1.0, 60.0))
-    assert found["arrival"]["censored_at"] == 3600.0
+    scores = members.score(forecast, seen(1.0, 60.0))
+    assert scores["arrival"]["censored_at"] == 3600.0
     latitude, longitude = axes()
     times = np.stack([np.minimum(round_fire(latitude, longitude, speed), 3600.0) for speed in SPEEDS])
     everywhere = probability.crps(times.reshape(3, -1), np.full(latitude.size * longitude.size, 3600.0))
-    mean = everywhere.sum() * 50.0**2 / found["domain"]["area"]
-    assert found["arrival"]["crps"] == pytest.approx(mean, rel=0.05)
+    mean = everywhere.sum() * 50.0**2 / scores["domain"]["area"]
+    assert scores["arrival"]["crps"] == pytest.approx(mean, rel=0.05)
 
 
 def test_only_a_forecast_with_a_perimeter_is_scored(forecast, tmp_path):

@@ -204,7 +204,7 @@ def test_wrf_files_become_the_run_that_a_conversion_makes(in_process, tmp_path):
     made.mkdir()
     source.mkdir()
     files, _ = model_files.wrf(made, times=(60, 120, 180), per_file=1)
-    said, known = [], []
+    said, arrivals = [], []
     look = watch._Watch(watch.WatchRequest(source, tmp_path / "DIR", name="Fire"), said.append)
     log = source / model_log.NAME
     log.write_text("")
@@ -217,22 +217,22 @@ def test_wrf_files_become_the_run_that_a_conversion_makes(in_process, tmp_path):
         look.poll()
         assert watched.times(tmp_path / "DIR")[-1].complete == "log"
         assert len(watched.times(tmp_path / "DIR")) == done
-        known.append(readers.open(tmp_path / "DIR").fuel_arrival_time())
+        arrivals.append(readers.open(tmp_path / "DIR").fuel_arrival_time())
     with log.open("a") as file:
         file.write("wrf: SUCCESS COMPLETE WRF\n")
     look.poll()
     assert look.state == "ended"
     convert.in_process(list(files), tmp_path / "whole", ["", "", "", 0.0, "Fire", ""])
-    found, whole = readers.open(tmp_path / "DIR"), readers.open(tmp_path / "whole")
-    assert (found.start, list(found.times)) == (whole.start, list(whole.times))
-    np.testing.assert_array_equal(found.fuel_arrival_time(), whole.fuel_arrival_time())
-    for time, arrival in zip(whole.times, known, strict=True):
+    grown, whole = readers.open(tmp_path / "DIR"), readers.open(tmp_path / "whole")
+    assert (grown.start, list(grown.times)) == (whole.start, list(whole.times))
+    np.testing.assert_array_equal(grown.fuel_arrival_time(), whole.fuel_arrival_time())
+    for time, arrival in zip(whole.times, arrivals, strict=True):
         later = whole.fuel_arrival_time() > time
         np.testing.assert_array_equal(arrival, np.where(later, np.nan, whole.fuel_arrival_time()))
-    np.testing.assert_array_equal(found.surface_fuel, whole.surface_fuel)
+    np.testing.assert_array_equal(grown.surface_fuel, whole.surface_fuel)
     for index in range(3):
-        np.testing.assert_array_equal(found.heat_flux(index), whole.heat_flux(index))
-    assert {*whole.fields} - {*found.fields} <= {each for each in whole.fields if each.endswith("_3d")}
+        np.testing.assert_array_equal(grown.heat_flux(index), whole.heat_flux(index))
+    assert {*whole.fields} - {*grown.fields} <= {each for each in whole.fields if each.endswith("_3d")}
 
 
 def test_a_model_that_fails_ends_the_watch(in_process, tmp_path):

@@ -30,14 +30,14 @@ def run(tmp_path):
 
 def test_a_known_run_has_the_first_times_and_repeats_the_last(run, tmp_path):
     known_run.write(run, 2, 1500.0, tmp_path / "known", "film 1")
-    known = readers.open(tmp_path / "known")
-    assert list(known.times) == [0.0, 600.0, 1500.0]
+    shown = readers.open(tmp_path / "known")
+    assert list(shown.times) == [0.0, 600.0, 1500.0]
     for index, same in ((0, 0), (1, 1), (2, 1)):
-        np.testing.assert_array_equal(known.heat_flux(index), run.heat_flux(same))
-    arrival, all_times = known.fuel_arrival_time(), run.fuel_arrival_time()
+        np.testing.assert_array_equal(shown.heat_flux(index), run.heat_flux(same))
+    arrival, all_times = shown.fuel_arrival_time(), run.fuel_arrival_time()
     np.testing.assert_array_equal(arrival, np.where(all_times <= 600.0, all_times, np.nan))
     assert 0 < np.isfinite(arrival).sum() < np.isfinite(all_times).sum()
-    np.testing.assert_array_equal(known.surface_fuel, run.surface_fuel)
+    np.testing.assert_array_equal(shown.surface_fuel, run.surface_fuel)
     assert (content.identity(tmp_path / "known"), content.identity(tmp_path / "run")) == ("film 1", "")
 
 
@@ -57,10 +57,10 @@ def test_times_of_a_known_run_count_from_any_start(run, tmp_path):
     np.save(tmp_path / "run" / "fuel_arrival_time.npy", arrival + 5e6)
     shifted = readers.open(tmp_path / "run")
     known_run.write(shifted, 2, float(shifted.times[1]) + 60.0, tmp_path / "known", "film 1")
-    known = readers.open(tmp_path / "known")
-    np.testing.assert_allclose(known.times, [shifted.times[0], shifted.times[1], shifted.times[1] + 60.0])
+    shown = readers.open(tmp_path / "known")
+    np.testing.assert_allclose(shown.times, [shifted.times[0], shifted.times[1], shifted.times[1] + 60.0])
     late = shifted.fuel_arrival_time()
-    np.testing.assert_allclose(known.fuel_arrival_time(), np.where(late <= shifted.times[1], late, np.nan))
+    np.testing.assert_allclose(shown.fuel_arrival_time(), np.where(late <= shifted.times[1], late, np.nan))
 
 
 def test_a_frame_needs_the_next_time():

@@ -79,7 +79,7 @@ def _members(cases: dict[str, Path], listed: set[str], like: raster.Raster) -> I
                 )
             yield Member(case), from_arrival_time.arrival_times(arrival, run_reader.SECOND)
         else:
-            yield Member(case), attempt(_list, path, like.values.shape)
+            yield Member(case), attempt(_list, path, (len(like.y), len(like.x)))
 
 
 def _list(path: Path, shape: tuple[int, int]) -> NDArray[np.float32]:
