@@ -25,16 +25,13 @@ PALETTE = "inferno"
 _GREY = 0.12
 
 
-def declare(name: str) -> DerivedPass:
-    """Declare the pass of one band."""
-    return DerivedPass(
-        name=name,
-        files=("png",),
-        film=True,
-        aspects=frozenset({"time", "camera"}),
-        needs=("depth",),
-        code=("shot/satellites",),
-    )
+PASS = DerivedPass(
+    files=("png",),
+    film=True,
+    aspects=frozenset({"time", "camera"}),
+    needs=("depth",),
+    code=("shot/satellites",),
+)
 
 
 def finish(

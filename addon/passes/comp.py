@@ -28,7 +28,6 @@ ORDER = 11
 HELP = "Layers of the visible picture for compositors: flames, smoke, solid, lights and bloom, 16-bit EXR"
 
 PASS = MarchedPass(
-    name="comp",
     files=("exr",),
     aspects=rgb.PASS.aspects,
     code=("passes/rgb.py",),

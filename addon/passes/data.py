@@ -47,7 +47,6 @@ ORDER = 43
 HELP = "Depth, normals, positions, motion, Cryptomatte and temperatures for compositors, 32-bit EXR"
 
 PASS = DerivedPass(
-    name="data",
     files=("exr", "json"),
     single_view=True,
     aspects=frozenset({"time", "camera", "picture"}),

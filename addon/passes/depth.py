@@ -16,14 +16,13 @@ from numpy.typing import NDArray
 
 from ..shot import exr_tags
 from ..shot.cameras import pixel_rays
-from ..shot.passes import Files, RenderedPass
+from ..shot.passes import SURFACES, Files, RenderedPass
 from ..shot.shot import Shot
 
 ORDER = 20
 HELP = "Depth of terrain and trees, along the axis and along the line of sight, m, 32-bit EXR"
 
 PASS = RenderedPass(
-    name="depth",
     files=("exr",),
     socket="Depth",
     layer_property="use_pass_z",
@@ -32,7 +31,7 @@ PASS = RenderedPass(
     pixel_centres=True,
     geometry_only=True,
     shares_rays=True,
-    aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "stations"}),
+    aspects=SURFACES,
 )
 
 

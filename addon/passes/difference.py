@@ -27,7 +27,6 @@ ORDER = 75
 HELP = "Visible picture, tinted where burned areas of the first run and of other [[runs]] differ"
 
 PASS = ComparisonPass(
-    name="difference",
     files=("png",),
     film=True,
     captions=False,

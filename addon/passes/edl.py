@@ -15,12 +15,7 @@ from ..shot.shot import Shot
 ORDER = 40
 HELP = "Visible picture with eye-dome lighting from depth"
 
-PASS = DerivedPass(
-    name="edl",
-    files=("png",),
-    film=True,
-    needs=("rgb", "depth"),
-)
+PASS = DerivedPass(files=("png",), film=True, needs=("rgb", "depth"))
 
 STRENGTH, RADIUS = 4.0, 1
 

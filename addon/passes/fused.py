@@ -30,7 +30,6 @@ ORDER = 60
 HELP = "One picture of visible, thermal, depth and a map, with time, place and scales"
 
 PASS = DerivedPass(
-    name="fused",
     files=("png",),
     film=True,
     captions=False,

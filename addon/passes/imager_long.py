@@ -12,5 +12,5 @@ from . import _imager
 ORDER = 51
 HELP = "Brightness temperature, LWIR: ABI band 14 (11.2 µm) or VIIRS band I5 (11.45 µm)"
 
-PASS = _imager.declare("imager_long")
+PASS = _imager.PASS
 finish = functools.partial(_imager.finish, long=True)

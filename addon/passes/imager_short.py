@@ -9,5 +9,5 @@ from . import _imager
 ORDER = 50
 HELP = "Brightness temperature, MWIR: ABI band 7 (3.9 µm) or VIIRS band I4 (3.74 µm)"
 
-PASS = _imager.declare("imager_short")
+PASS = _imager.PASS
 finish = functools.partial(_imager.finish, long=False)

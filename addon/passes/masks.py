@@ -32,7 +32,7 @@ from firetwin_core import sensor
 from numpy.typing import NDArray
 
 from ..shot import exr_tags
-from ..shot.passes import Files, RenderedPass
+from ..shot.passes import SURFACES, Files, RenderedPass
 from ..shot.shot import Shot
 
 ORDER = 27
@@ -66,14 +66,13 @@ def numbers(key: NDArray, second: NDArray) -> NDArray:
 
 
 PASS = RenderedPass(
-    name="masks",
     files=("exr", "png"),
     excludes=("lamps",),
     samples=1,
     shading="masks",
     channels="colour",
     pixel_centres=True,
-    aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "fire", "smoke", "stations"}),
+    aspects=SURFACES | {"fire", "smoke"},
 )
 
 _LEAST = 1.0e-4  # transmittance of smoke below which class numbers are inexact

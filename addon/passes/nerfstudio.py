@@ -24,12 +24,7 @@ HELP = (
     "listed in transforms.json with rgb and pose"
 )
 
-PASS = DerivedPass(
-    name="nerfstudio",
-    files=("npy", "png"),
-    single_view=True,
-    needs=("depth", "masks"),
-)
+PASS = DerivedPass(files=("npy", "png"), single_view=True, needs=("depth", "masks"))
 
 MILLIMETRES = 1000.0  # per metre; the inverse of nerfstudio's default depth_unit_scale_factor
 _SKY = 1.0e9  # m; depth of the sky is 1e10

@@ -6,13 +6,12 @@ Flames and smoke are excluded, as they have no surface. One ray goes through eac
 
 from __future__ import annotations
 
-from ..shot.passes import RenderedPass
+from ..shot.passes import SURFACES, RenderedPass
 
 ORDER = 25
 HELP = "Surface normals of terrain and trees (east, north, up), 32-bit EXR"
 
 PASS = RenderedPass(
-    name="normal",
     files=("exr",),
     socket="Normal",
     layer_property="use_pass_normal",
@@ -20,5 +19,5 @@ PASS = RenderedPass(
     samples=1,
     channels="colour",
     pixel_centres=True,
-    aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "stations"}),
+    aspects=SURFACES,
 )

@@ -17,12 +17,7 @@ from . import thermal
 ORDER = 45
 HELP = "Visible picture overlaid with the hot spots of the thermal pass"
 
-PASS = DerivedPass(
-    name="overlay",
-    files=("png",),
-    film=True,
-    needs=("rgb", "thermal"),
-)
+PASS = DerivedPass(files=("png",), film=True, needs=("rgb", "thermal"))
 
 START, FULL, OPACITY = 350.0, 450.0, 0.9
 

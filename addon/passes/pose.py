@@ -33,7 +33,6 @@ ORDER = 5
 HELP = "Camera position, orientation, lens, time and units of each frame, JSON"
 
 PASS = DerivedPass(
-    name="pose",
     files=("json",),
     aspects=frozenset({"time", "camera", "picture", "terrain", "sidecar"}),
 )

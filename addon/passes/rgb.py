@@ -2,33 +2,17 @@
 
 from __future__ import annotations
 
-from ..shot.passes import RenderedPass
+from ..shot.passes import SURFACES, RenderedPass
 
 ORDER = 10
 HELP = "Visible picture"
 
 PASS = RenderedPass(
-    name="rgb",
     files=("png", "exr"),
     shading="light",
     channels="colour",
     bits=16,
     film=True,
     shares_rays=True,
-    aspects=frozenset(
-        {
-            "time",
-            "camera",
-            "picture",
-            "colour",
-            "terrain",
-            "forest",
-            "fire",
-            "smoke",
-            "light",
-            "grain",
-            "labels",
-            "stations",
-        }
-    ),
+    aspects=SURFACES | {"fire", "smoke", "light", "grain", "colour", "labels"},
 )

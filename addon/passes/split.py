@@ -21,7 +21,6 @@ ORDER = 70
 HELP = "Split screen: the pictures of all [[runs]] side by side, with names and time"
 
 PASS = ComparisonPass(
-    name="split",
     files=("png",),
     film=True,
     captions=False,

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from ..imaging import colour_bar
 from ..shot import exr_tags
 from ..shot.fire import air_temperature
-from ..shot.passes import Files, RenderedPass
+from ..shot.passes import SURFACES, Files, RenderedPass
 from ..shot.sections.thermal import BANDS
 from ..shot.shot import Shot
 
@@ -37,28 +37,13 @@ ORDER = 30
 HELP = "Infrared radiance and brightness temperature, 32-bit EXR, and a PNG in palette colours"
 
 PASS = RenderedPass(
-    name="thermal",
     files=("exr", "png"),
     excludes=("lamps",),
     samples=4,
     through_smoke=True,
     shares_rays=True,
     film=True,
-    aspects=frozenset(
-        {
-            "time",
-            "camera",
-            "picture",
-            "terrain",
-            "forest",
-            "fire",
-            "smoke",
-            "light",
-            "grain",
-            "thermal",
-            "stations",
-        }
-    ),
+    aspects=SURFACES | {"fire", "smoke", "light", "grain", "thermal"},
 )
 
 _COLD = 45.0  # K below the coldest ground at which the palette ends, for the sky (by eye)

@@ -26,7 +26,6 @@ ORDER = 35
 HELP = "Visible picture with the model's mean near-surface air temperature added in colour"
 
 PASS = DerivedPass(
-    name="thermal_map",
     files=("png",),
     film=True,
     aspects=frozenset({"time", "camera"}),

@@ -2,7 +2,7 @@
 
 A pass is a module of ``passes``, or of the folder ``passes`` of a feature. It defines `ORDER`, the rank by
 which passes are made and listed; `HELP`, one line; `PASS`, a `RenderedPass`, `MarchedPass`, `DerivedPass` or
-`ComparisonPass` with the module's name; and `finish`, if it makes files or completes rendered ones (see
+`ComparisonPass`; and `finish`, if it makes files or completes rendered ones (see
 `Finish`). It imports matplotlib within functions, because Blender does not have it.
 
 A pixel without a value, such as the sky's, is 1e10 m in depth, and 0 in normals. Temperatures (K) without a
@@ -15,7 +15,7 @@ import functools
 import importlib
 import inspect
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from operator import attrgetter
 from pathlib import Path
 from types import ModuleType
@@ -33,6 +33,9 @@ Finish = Callable[[Files, Mapping[str, Files], Any, str, int], None]
 """Finishes a picture without Blender. Arguments: the pass's files; the files of the passes that it needs, by
 need (``need@run`` for another run); the `Shot`; the camera's name; and the frame."""
 
+SURFACES = frozenset({"time", "camera", "picture", "terrain", "forest", "stations"})
+"""Aspects of passes that show the surfaces of a scene."""
+
 _ROOT = __name__.rsplit(".", 2)[0]
 _PACKAGE = Path(__file__).parents[1]
 
@@ -44,7 +47,7 @@ class Pass:
     Attributes
     ----------
     name
-        Name of its module.
+        Name of its module, from `known`.
     files
         Suffixes of its files.
     aspects
@@ -68,7 +71,7 @@ class Pass:
         Key of the scene file that must be set, such as "tiles.root", and words for it with a remedy.
     """
 
-    name: str
+    name: str = ""
     files: tuple[str, ...]
     aspects: frozenset[str] = frozenset()
     film: bool = False
@@ -231,7 +234,7 @@ def modules() -> dict[str, ModuleType]:
 @functools.cache
 def known() -> dict[str, Pass]:
     """Return all passes by name, in order."""
-    return {name: module.PASS for name, module in modules().items()}
+    return {name: replace(module.PASS, name=name) for name, module in modules().items()}
 
 
 @functools.cache

@@ -203,9 +203,10 @@ def test_one_module_adds_a_marched_pass(film, monkeypatch):
         return {"opacity": eye.smoke_opacity[..., None], "glow.": eye.channels["Firetwin Glow"]}
 
     veil = passes.MarchedPass(name="veil", files=("exr",), aovs=("Firetwin Glow",))
-    modules = passes.modules() | {"veil": SimpleNamespace(PASS=veil, march=march)}
+    known = passes.known() | {"veil": veil}
+    modules = passes.modules() | {"veil": SimpleNamespace(march=march)}
     monkeypatch.setattr(passes, "modules", lambda: modules)
-    monkeypatch.setattr(passes, "known", lambda: {name: each.PASS for name, each in modules.items()})
+    monkeypatch.setattr(passes, "known", lambda: known)
     made = film("veil")["veil"]
     assert made.shape == (54, 96, 4)
     assert made.max() > 0.9

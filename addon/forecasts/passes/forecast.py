@@ -26,7 +26,6 @@ ORDER = 76
 HELP = "Visible picture of one member, with fronts of others, and ground tinted by the members that burned"
 
 PASS = DerivedPass(
-    name="forecast",
     files=("png",),
     film=True,
     captions=False,

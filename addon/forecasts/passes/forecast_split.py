@@ -26,7 +26,6 @@ ORDER = 78
 HELP = "Split screen of all [[runs]], with the ground tinted by the members that burned"
 
 PASS = ComparisonPass(
-    name="forecast_split",
     files=("png",),
     film=True,
     captions=False,

@@ -27,7 +27,6 @@ ORDER = 77
 HELP = "Forecast pictures of all [[runs]] in turn, 1.5 s each, with hard cuts"
 
 PASS = ComparisonPass(
-    name="outcomes",
     files=("png",),
     film=True,
     captions=False,

@@ -72,7 +72,7 @@ from firetwin.shot.passes import DerivedPass
 
 ORDER = 29
 HELP = "Where soot is"
-PASS = DerivedPass(name=__name__.rpartition(".")[2], files=("txt",), needs=("depth",))
+PASS = DerivedPass(files=("txt",), needs=("depth",))
 
 def finish(files, needed, shot, camera, frame):
     files["txt"].write_text(f"soot of {needed['depth']}")
