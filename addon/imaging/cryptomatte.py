@@ -40,7 +40,7 @@ def attributes(name: str, manifest: str, is_file: bool = False) -> dict[str, str
     is_file
         The manifest is a file name.
     """
-    start = f"cryptomatte/{int(_hashes([name])[0]):08x}"[:-1]  # keys have seven digits
+    start = f"cryptomatte/{int(hash_names([name])[0]):08x}"[:-1]  # keys have seven digits
     return {
         f"{start}/name": name,
         f"{start}/hash": "MurmurHash3_32",
@@ -58,7 +58,7 @@ def manifest(numbers: Mapping[str, np.float32]) -> str:
 
 def identify(names: Sequence[str]) -> NDArray[np.float32]:
     """Compute the identifiers (n,) of names: hashes with the exponent of a finite, normal float."""
-    words = _hashes(names)
+    words = hash_names(names)
     exponent = np.clip(words >> _EXPONENT & np.uint32(255), np.uint32(1), np.uint32(254))
     return (words & np.uint32(0x807FFFFF) | exponent << _EXPONENT).view(np.float32)
 
@@ -95,7 +95,7 @@ def ranked(numbers: NDArray[np.float32], cover: NDArray[np.float32]) -> NDArray[
     return layers
 
 
-def _hashes(names: Sequence[str]) -> Words:
+def hash_names(names: Sequence[str]) -> Words:
     """Compute MurmurHash3_32 (n,) of names, in groups of equal length."""
     texts = [name.encode() for name in names]
     lengths = np.array([len(text) for text in texts], np.int64)

@@ -334,7 +334,7 @@ def _camera(
         _solving(choice, shot, hazy, progress) as elsewhere,
         prefetch.smoke(shot, hazy, progress, tell, elsewhere) as ready,
     ):
-        for part, group in _parts(shot, wanted):
+        for part, group in split_in_chunks(shot, wanted):
             stage = worker_scene.build_scene(part, progress, tell) if drawn else worker_scene.empty()
             if drawn and shot.settings.render.engine == "cycles":
                 devices.use(gpus, stage.scene)
@@ -386,7 +386,7 @@ def _solving(
         yield working
 
 
-def _parts(shot: Shot, wanted: list[Picture]) -> Iterator[tuple[Shot, list[Picture]]]:
+def split_in_chunks(shot: Shot, wanted: list[Picture]) -> Iterator[tuple[Shot, list[Picture]]]:
     """Split into chunks: shots of `render.chunk` frames of the camera, built together, with their pictures.
 
     Chunk boundaries do not depend on the requested frames.

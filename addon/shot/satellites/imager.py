@@ -170,20 +170,20 @@ def picture(instrument: Instrument, grid: ImagerGrid, fire: Fire, time: float) -
         shown.append(sensor.spectral_temperature(radiance, wave))
     mask = np.where(shown[0] - shown[1] > _WARMER, BURNING, NONE)
     mask = np.where(shown[0] >= instrument.saturation[0] - 1e-6, SATURATED, mask).astype(np.uint8)
-    blocks = _blocks(instrument.power.side, rows, columns)
-    power, limited = _power(instrument.power, kelvin, part, area, mask > NONE, blocks)
+    blocks = index_blocks(instrument.power.side, rows, columns)
+    power, limited = measure_power(instrument.power, kelvin, part, area, mask > NONE, blocks)
     return ImagerPicture(
         shown[0], shown[1], power, mask, area, grid, int(rows[0]), int(columns[0]), heat, limited
     )
 
 
-def _blocks(side: int, rows: NDArray, columns: NDArray) -> NDArray[np.int64]:
+def index_blocks(side: int, rows: NDArray, columns: NDArray) -> NDArray[np.int64]:
     """Index (rows, columns) of the larger pixel, `side` by `side`, around each pixel."""
     down, across = rows // side - rows[0] // side, columns // side - columns[0] // side
     return down[:, None] * (across[-1] + 1) + across
 
 
-def _power(
+def measure_power(
     band: PowerBand,
     kelvin: Array,
     part: Array,

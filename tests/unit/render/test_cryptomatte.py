@@ -18,7 +18,7 @@ def test_hashes_are_those_of_mmh3():
     random = np.random.default_rng(1)
     names = ["", "fire", "Bäume", *("".join(map(chr, random.integers(1, 900, n % 23))) for n in range(400))]
     expected = [mmh3.hash(name.encode(), signed=False) for name in names]
-    assert cryptomatte._hashes(names).tolist() == expected
+    assert cryptomatte.hash_names(names).tolist() == expected
 
 
 def test_identifiers_are_finite_and_normal():

@@ -52,9 +52,11 @@ def _pictures(frames):
 @given(st.integers(0, 12), st.sets(st.integers(1, 9), min_size=1))
 def test_parts_do_not_hang_on_what_is_wanted_and_hold_all_of_it(film, chunk, wanted):
     shot = film(chunk)
-    parts = list(render._parts(shot, _pictures(sorted(wanted))))
+    parts = list(render.split_in_chunks(shot, _pictures(sorted(wanted))))
     assert [picture for _part, group in parts for picture in group] == _pictures(sorted(wanted))
-    everything = {tuple(part.built_frames): part for part, _ in render._parts(shot, _pictures(range(1, 10)))}
+    everything = {
+        tuple(part.built_frames): part for part, _ in render.split_in_chunks(shot, _pictures(range(1, 10)))
+    }
     for part, group in parts:
         assert tuple(part.built_frames) in everything
         assert {picture.frame - 1 for picture in group} <= set(part.built_frames.tolist())
@@ -63,7 +65,7 @@ def test_parts_do_not_hang_on_what_is_wanted_and_hold_all_of_it(film, chunk, wan
 
 def test_a_short_film_is_built_whole_and_a_part_keeps_the_camera_s_path(film):
     shot = film(9)
-    ((part, _),) = render._parts(shot, _pictures([3]))
+    ((part, _),) = render.split_in_chunks(shot, _pictures([3]))
     assert part is shot
     part = shot.for_frames([4, 5])
     assert part.full is shot
@@ -73,5 +75,5 @@ def test_a_short_film_is_built_whole_and_a_part_keeps_the_camera_s_path(film):
 
 
 def test_frames_of_a_camera_that_films_some_are_parted_by_their_numbers(film):
-    parts = list(render._parts(film(4, "1-9:2"), _pictures([1, 3, 5, 7, 9])))
+    parts = list(render.split_in_chunks(film(4, "1-9:2"), _pictures([1, 3, 5, 7, 9])))
     assert [part.built_frames.tolist() for part, _ in parts] == [[0, 2], [4, 6], [8]]

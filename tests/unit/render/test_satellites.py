@@ -138,9 +138,9 @@ def test_the_power_of_a_wide_pixel_is_shared_among_those_that_show_fire(row, col
     """A pixel of M13 is 2 x 2, from even rows and columns on; those at the edge of the domain are cut off."""
     part = np.reshape(parts, (5, 6))
     fire = part > 0.01
-    blocks = imager._blocks(2, row + np.arange(5), column + np.arange(6))
+    blocks = imager.index_blocks(2, row + np.arange(5), column + np.arange(6))
     kelvin, area = np.full((5, 6, 1), 300.0), np.full((5, 6), 375.0**2)
-    power, limited = imager._power(imager.VIIRS.power, kelvin, part, area, fire, blocks)
+    power, limited = imager.measure_power(imager.VIIRS.power, kelvin, part, area, fire, blocks)
     assert limited == 0
     assert not power[~fire].any()
     above = float(np.diff(sensor.spectral_radiance([300.0, 1000.0], 4.05))[0])
@@ -155,8 +155,8 @@ def test_the_power_of_a_wide_pixel_is_shared_among_those_that_show_fire(row, col
 
 def test_a_wide_pixel_that_is_saturated_is_counted():
     kelvin, area, part = np.full((2, 2, 1), 300.0), np.full((2, 2), 375.0**2), np.full((2, 2), 0.3)
-    blocks = imager._blocks(2, np.arange(2), np.arange(2))
-    power, limited = imager._power(imager.VIIRS.power, kelvin, part, area, part > 0.0, blocks)
+    blocks = imager.index_blocks(2, np.arange(2), np.arange(2))
+    power, limited = imager.measure_power(imager.VIIRS.power, kelvin, part, area, part > 0.0, blocks)
     above = float(np.diff(sensor.spectral_radiance([300.0, 634.0], 4.05))[0])
     assert limited == 1
     assert power.sum() == pytest.approx(4.0 * 375.0**2 * constants.STEFAN_BOLTZMANN / 2.88e-9 * above)
