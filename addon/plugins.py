@@ -33,13 +33,6 @@ def values(package: str, constant: str) -> dict[str, Any]:
     return {name: getattr(each, constant) for name, each in modules(package).items()}
 
 
-def parts(package: str, name: str) -> dict[str, ModuleType]:
-    """Import the module or package `name` of each folder of a loaded package that has it, by folder."""
-    folder = Path(str(sys.modules[package].__file__)).parent
-    places = {*folder.glob(f"*/{name}.py"), *(path.parent for path in folder.glob(f"*/{name}/__init__.py"))}
-    return {each: module(f"{package}.{each}", name) for each in sorted(path.parent.name for path in places)}
-
-
 def of_rooms(name: str) -> tuple[ModuleType, ...]:
     """Import the module or package `name` of each feature that has it, such as ``panel``.
 

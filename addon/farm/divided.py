@@ -60,4 +60,4 @@ def missing(job: Job, out: Path) -> dict[Picture, str]:
 
 
 def _works() -> dict[str, ModuleType]:
-    return plugins.parts(str(plugins.__package__), "farm_work")
+    return {each.__name__.split(".")[-2]: each for each in plugins.of_rooms("farm_work")}
