@@ -2,18 +2,18 @@
 
 import itertools
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 
 import numpy as np
 import pytest
+from filmed import film
 from firetwin.data import sample, stored
 from firetwin.run import readers
 from firetwin.shot.cameras import flight
 from firetwin.shot.cameras.path import hidden
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.drone import Drone
-from firetwin.shot.sections import Forest, TerrainSettings, Time
-from firetwin.shot.settings import Camera, Settings
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 
 pyproj = pytest.importorskip("pyproj")
@@ -29,17 +29,9 @@ def run(tmp_path_factory):
 
 def flown(run, frames=40, near_radius=1500.0, minutes=20, **drone):
     """The shot of one drone over so many model minutes, and its path."""
-    settings = Settings(
-        time=Time(
-            start=datetime(2014, 9, 17, 16, 0, tzinfo=UTC),
-            end=datetime(2014, 9, 17, 16, minutes, tzinfo=UTC),
-            frames=frames,
-        ),
-        terrain=TerrainSettings(near_radius=near_radius, apron=1000.0),
-        forest=Forest(trees=False),
-        cameras=(Camera("scout", Drone(**drone)),),
-    )
-    shot = Shot(settings, run)
+    time = {"start": datetime(2014, 9, 17, 16, tzinfo=UTC), "frames": frames}
+    time["end"] = time["start"] + timedelta(minutes=minutes)
+    shot = film(run, Camera("scout", Drone(**drone)), near_radius=near_radius, apron=1000.0, **time)
     return shot, shot.paths[0]
 
 

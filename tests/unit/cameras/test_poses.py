@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from filmed import film
 from firetwin.geometry import quaternion
 from firetwin.run import opening as runs
 from firetwin.shot.cameras import rotation, sparse_keys
 from firetwin.shot.cameras.rigs import poses
-from firetwin.shot.sections import Forest, TerrainSettings, Time
-from firetwin.shot.settings import Camera, Settings, scene_file
+from firetwin.shot.settings import Camera, scene_file
 from firetwin.shot.shot import Shot
 from firetwin_core import geo
 from hypothesis import given
@@ -59,13 +59,7 @@ def test_few_keys_go_where_a_way_goes(seed):
 
 
 def _shot(run, keys, frames):
-    settings = Settings(
-        time=Time(frames=frames),
-        terrain=TerrainSettings(near_radius=0.0, apron=3000.0),
-        forest=Forest(trees=False),
-        cameras=(Camera("hand", poses.Poses(24.0, 13.2, keys)),),
-    )
-    return Shot(settings, run)
+    return film(run, Camera("hand", poses.Poses(24.0, 13.2, keys)), frames=frames)
 
 
 def test_a_flown_way_comes_back_through_the_file(make_run, tmp_path):

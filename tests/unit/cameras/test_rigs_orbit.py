@@ -5,16 +5,14 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from filmed import LEVEL, film
 from firetwin.run import opening as runs
 from firetwin.shot.cameras.rigs.orbit import Orbit
-from firetwin.shot.sections import Forest, TerrainSettings, Time
-from firetwin.shot.settings import Camera, Settings
-from firetwin.shot.shot import Shot
+from firetwin.shot.settings import Camera
 from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st
 from hypothesis_profiles import examples
-from small_run import FX, FY, NX, NY
 
 ORBIT = Orbit(latitude=38.905, longitude=-120.592, radius=400.0, height=300.0, speed=5.0, bearing=90.0)
 
@@ -22,18 +20,11 @@ ORBIT = Orbit(latitude=38.905, longitude=-120.592, radius=400.0, height=300.0, s
 @pytest.fixture
 def orbit(make_run):
     """The path of an orbit with other settings, 5 frames over two minutes of a run on level ground."""
-    level = {"elevation": np.full((NY, NX), 1200.0, np.float32)}
-    level["fuel_elevation"] = np.full((FY, FX), 1200.0, np.float32)
-    run = runs.open(make_run(**level))
+    run = runs.open(make_run(**LEVEL))
 
     def path(**changes):
-        settings = Settings(
-            time=Time(start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC), frames=5),
-            terrain=TerrainSettings(near_radius=0.0, apron=0.0),
-            forest=Forest(trees=False),
-            cameras=(Camera("round", replace(ORBIT, **changes)),),
-        )
-        shot = Shot(settings, run)
+        start = datetime(2014, 9, 17, 4, 45, tzinfo=UTC)
+        shot = film(run, Camera("round", replace(ORBIT, **changes)), apron=0.0, start=start, frames=5)
         return shot, shot.paths[0]
 
     return path

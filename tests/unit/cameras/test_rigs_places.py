@@ -5,6 +5,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from filmed import film
 from firetwin.errors import InputError
 from firetwin.render import fingerprint
 from firetwin.run import opening as runs
@@ -16,9 +17,7 @@ from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.cameras.rigs.minimap import Minimap
 from firetwin.shot.cameras.rigs.satellite import ORBIT, Satellite
-from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Settings, scene_file
-from firetwin.shot.shot import Shot
 from firetwin_core import lod
 
 pyproj = pytest.importorskip("pyproj")
@@ -37,13 +36,7 @@ def run(make_run):
 
 
 def shot_of(run, *cameras, frames=21):
-    settings = Settings(
-        time=Time(start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC), frames=frames),
-        terrain=TerrainSettings(near_radius=0.0, apron=3000.0),
-        forest=Forest(trees=False),
-        cameras=cameras,
-    )
-    return Shot(settings, run)
+    return film(run, *cameras, start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC), frames=frames)
 
 
 def lookout(*keys, **more):

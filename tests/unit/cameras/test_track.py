@@ -6,20 +6,18 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from filmed import LEVEL, film
 from firetwin import cli
 from firetwin.errors import InputError
 from firetwin.run import opening as runs
 from firetwin.shot import run_checks
 from firetwin.shot.cameras import track
 from firetwin.shot.cameras.rigs.drone import Drone
-from firetwin.shot.sections import Forest, TerrainSettings, Time
-from firetwin.shot.settings import Camera, Settings, code_fingerprint, scene_file
-from firetwin.shot.shot import Shot
+from firetwin.shot.settings import Camera, code_fingerprint, scene_file
 from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st
 from hypothesis_profiles import examples
-from small_run import FX, FY, NX, NY
 
 TIMES = [f"2014-09-17T04:4{i}:00Z" for i in (5, 6, 7)]  # the small run's three
 PLACES = [(38.901, -120.598, 1500.0), (38.904, -120.594, 1550.0), (38.908, -120.589, 1600.0)]
@@ -61,20 +59,12 @@ def write(tmp_path):
 
 @pytest.fixture
 def run(make_run):
-    level = {"elevation": np.full((NY, NX), 1200.0, np.float32)}
-    level["fuel_elevation"] = np.full((FY, FX), 1200.0, np.float32)
-    return runs.open(make_run(**level))
+    return runs.open(make_run(**LEVEL))
 
 
 def following(run, path, frames=5, **drone):
     """A shot of the whole small run, two minutes, with a drone on a track."""
-    settings = Settings(
-        time=Time(frames=frames),
-        terrain=TerrainSettings(near_radius=0.0, apron=3000.0),
-        forest=Forest(trees=False),
-        cameras=(Camera("scout", Drone(track=path, **drone)),),
-    )
-    return Shot(settings, run)
+    return film(run, Camera("scout", Drone(track=path, **drone)), frames=frames)
 
 
 @pytest.mark.parametrize(("name", "text"), [("a.gpx", GPX), ("a.KML", KML), ("a.csv", CSV)])

@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from filmed import film
 from firetwin.errors import InputError
 from firetwin.render import fingerprint, spherical
 from firetwin.run import opening as runs
@@ -16,9 +17,7 @@ from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.cameras.rigs.vr import Vr
-from firetwin.shot.sections import Forest, TerrainSettings, Time
-from firetwin.shot.settings import Camera, Render, Settings, scene_file
-from firetwin.shot.shot import Shot
+from firetwin.shot.settings import Camera, Render, scene_file
 from firetwin_core import sensor
 
 PLACE = (38.904, -120.594)
@@ -26,14 +25,8 @@ KEY = CameraKey(0.0, *PLACE, 120.0, "point", 38.905, -120.593)
 
 
 def shot_of(run, *cameras, resolution=(512, 512)):
-    settings = Settings(
-        time=Time(start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC), frames=5),
-        terrain=TerrainSettings(near_radius=0.0, apron=3000.0),
-        forest=Forest(trees=False),
-        cameras=cameras,
-        render=Render(resolution=resolution),
-    )
-    return Shot(settings, run)
+    start = datetime(2014, 9, 17, 4, 45, tzinfo=UTC)
+    return film(run, *cameras, start=start, frames=5, render=Render(resolution=resolution))
 
 
 @pytest.fixture

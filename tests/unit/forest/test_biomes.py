@@ -1,5 +1,6 @@
 """Biomes: choice by land, changes by settings, and completeness."""
 
+from dataclasses import replace
 from datetime import date
 
 import numpy as np
@@ -205,13 +206,13 @@ def test_every_biome_names_models_that_live_and_colours_of_land(name):
         assert land.green[1] > land.green[0] > land.green[2]
 
 
-def test_bushes_grow_with_the_load_and_by_category(make_run):
+def test_bushes_grow_with_the_load_and_by_category(shot):
     load = np.linspace(0.1, 3.0, FY * FX, dtype=np.float32).reshape(FY, FX)
     number = np.full((FY, FX), np.nan, np.float32)
     number[2, :4], number[3, :4], number[4, :4] = 1.0, 4.0, 122.0
-    folder = make_run(canopy_fuel=filled(0.0), surface_fuel=load, fuel_category=number)
-    settings = Settings(terrain=TerrainSettings(apron=0.0), forest=Forest(biome="grassland"))
-    made = Shot(settings, runs.open(folder))
+    made = shot(
+        {"canopy_fuel": filled(0.0), "surface_fuel": load, "fuel_category": number}, biome="grassland"
+    )
     found = cover.shrubs(made)
     assert found.shape == (FY, FX)
     assert found[0, 0] == pytest.approx(biomes.choose(made).biome.shrub_cover)
@@ -267,17 +268,11 @@ def brush(shot):
     return things.position[np.isin(things.model, kind.models)]
 
 
-def test_there_are_more_bushes_where_more_of_the_land_is_under_them(shot, make_run):
-    folder = make_run(canopy_fuel=filled(0.0), surface_fuel=filled(0.5))
+def test_there_are_more_bushes_where_more_of_the_land_is_under_them(shot):
+    made = shot({"canopy_fuel": filled(0.0), "surface_fuel": filled(0.5)})
 
     def count(**forest):
-        key = CameraKey(0.0, 38.902, -120.594, 30.0, "point", 38.905, -120.594, 1.0)
-        settings = Settings(
-            terrain=TerrainSettings(near_radius=1500.0, apron=0.0),
-            forest=Forest(**forest),
-            cameras=(Camera("one", Drone(keys=(key,))),),
-        )
-        return len(brush(Shot(settings, runs.open(folder))))
+        return len(brush(made.with_settings(replace(made.settings, forest=Forest(**forest)))))
 
     few, many = (count(biome="grassland", shrub_cover=part) for part in (0.02, 0.6))
     assert many > 5 * max(few, 1)

@@ -48,13 +48,6 @@ def test_no_cell_of_a_tree_that_counts_is_left_out(film, seed, rise):
     assert np.all(found[np.round(row).astype(int), np.round(column).astype(int)][counts])
 
 
-def test_blocks_leave_out_no_cell(film, monkeypatch):
-    found = visible_cells.visible_cells(film, TALL, REACH, *grid(film))
-    monkeypatch.setattr(visible_cells, "_blocks", lambda *given: np.ones(given[-1].shape, bool))
-    assert 0 < found.sum() < found.size
-    assert np.array_equal(found, visible_cells.visible_cells(film, TALL, REACH, *grid(film)))
-
-
 def test_only_cells_among_the_given_are_found(film):
     among = np.random.default_rng(2).uniform(size=(ROWS, COLUMNS)) < 0.3
     whole = visible_cells.visible_cells(film, TALL, REACH, *grid(film))

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from firetwin.run import opening as runs
 from firetwin_core.flux import at_time, emitters
-from firetwin_core.geo import LocalFrame
 from small_run import NT, NX, NY, RUN_TOML, small_fields
 
 START = "start = 2014-09-16T21:45:00-07:00"
@@ -145,27 +144,10 @@ def test_runs_of_one_flux(make_run, values, first, last, emitter_count, invalid)
     assert np.isfinite(at_time(run, 30.0)).all()
 
 
-def test_a_grid_across_the_antimeridian(make_run):
-    east = 179.99 + 0.004 * np.arange(NX)
-    run = runs.open(make_run(longitude=east, fuel_longitude=np.linspace(179.99, 180.006, 10)))
-    frame = LocalFrame(38.9, 180.0)
-    enu = frame.forward_grid(run.latitude, run.longitude, run.elevation)
-    wrapped = frame.forward_grid(run.latitude, (east + 180) % 360 - 180, run.elevation)
-    np.testing.assert_allclose(enu, wrapped, rtol=0, atol=1e-6)
-    assert (np.diff(enu[..., 0]) > 300).all()
-
-
 @pytest.mark.parametrize("longitude", [541.0, -541.0])
 def test_longitudes_of_no_place(make_run, longitude):
     axis = longitude + 0.004 * np.arange(NX)
     assert "beyond 540 degrees" in refusal(make_run(longitude=axis)).reason
-
-
-@pytest.mark.parametrize("latitude", [90.0, -90.0])
-def test_a_grid_at_a_pole(latitude):
-    frame = LocalFrame(latitude, 0.0)
-    enu = frame.forward_grid([latitude], [0.0, 90.0, 180.0], np.zeros((1, 3)))
-    np.testing.assert_allclose(enu, 0, atol=1e-8)
 
 
 def test_no_cells():

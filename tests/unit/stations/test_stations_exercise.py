@@ -6,7 +6,6 @@ from zoneinfo import ZoneInfo
 
 import pytest
 from firetwin.data import history
-from firetwin.run.labels import Label
 from firetwin.stations import exercise, reading, types, writing
 from firetwin.stations.records import EXERCISE, MODES, STAFFING, STATUSES
 
@@ -84,16 +83,6 @@ def test_the_same_seed_makes_the_same_bytes_and_another_one_others(tmp_path):
     assert one == other
     assert one != different
     assert reading.read(paths[0]).stations == KING.stations
-
-
-def test_bases_of_the_users_own():
-    begins = history.load("king_fire").ignitions[0].time
-    made = exercise.make(
-        [Label("A", 1.0, 2.0)], begins, begins + timedelta(days=1), "Etc/GMT", "X", "mine.csv"
-    )
-    assert [each.name for each in made.stations] == ["Exercise base A"]
-    assert {each.type for each in made.resources} == set(exercise.ASSUMPTIONS)  # the first base has each type
-    assert "mine.csv" in made.sources[0].name
 
 
 @pytest.mark.parametrize(
