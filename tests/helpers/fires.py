@@ -28,14 +28,14 @@ def write_run(make_run, arrival, cells=120, cell=50.0, coarse=24, count=9, inter
     latitude, longitude = axes(cells, cell)
     rows, columns = axes(coarse, 250.0)
     fuel, flux = np.ones((cells, cells), np.float32), np.zeros((count, coarse, coarse), np.float32)
-    known = {
+    defaults = {
         **{"latitude": rows, "longitude": columns, "fuel_latitude": latitude, "fuel_longitude": longitude},
         **{"elevation": flux[0], "surface_fuel": fuel, "canopy_fuel": fuel, "heat_flux": flux},
         **dict.fromkeys(("temperature", "wind_east", "wind_north")),
         "fuel_arrival_time": None if arrival is None else arrival.astype(np.float32),
     }
     toml = f'start = 2014-09-17T04:45:00Z\ninterval_s = {interval}\nvertical = "orthometric"\n'
-    return make_run(toml='name = "Round"\n' + toml, **(known | fields))
+    return make_run(toml='name = "Round"\n' + toml, **(defaults | fields))
 
 
 def circle(radius, east=0.0, north=0.0, corners=360):

@@ -269,10 +269,10 @@ def brush(shot):
 
 
 def test_there_are_more_bushes_where_more_of_the_land_is_under_them(shot):
-    made = shot({"canopy_fuel": filled(0.0), "surface_fuel": filled(0.5)})
+    bare = shot({"canopy_fuel": filled(0.0), "surface_fuel": filled(0.5)})
 
     def count(**forest):
-        return len(brush(made.with_settings(replace(made.settings, forest=Forest(**forest)))))
+        return len(brush(bare.with_settings(replace(bare.settings, forest=Forest(**forest)))))
 
     few, many = (count(biome="grassland", shrub_cover=part) for part in (0.02, 0.6))
     assert many > 5 * max(few, 1)

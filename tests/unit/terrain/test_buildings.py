@@ -127,6 +127,14 @@ def test_walls_begin_below_all_ground_and_the_roof_is_level_above_all_ground():
     assert high.middle == pytest.approx((10.0, 5.0))
 
 
+def test_a_pit_within_the_footprint_is_found():
+    (building,) = buildings.place_on_ground(
+        [buildings.Footprint(SQUARE, (), 9.0)],
+        lambda at: 50.0 - 8.0 * (np.hypot(at[:, 0] - 14.0, at[:, 1] - 5.0) < 3.0),
+    )
+    assert building.base == pytest.approx(42.0 - placement.SKIRT)
+
+
 def test_nothing_stands_nowhere():
     assert buildings.place_on_ground([], slope) == []
 
