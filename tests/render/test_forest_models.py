@@ -10,8 +10,6 @@ from firetwin.shot.terrain.terrain import NEVER
 from mathutils import Vector
 
 MODELS = models.trees()
-
-
 LIVING = [k for k, model in enumerate(MODELS) if model.state == "living" and model.kind != "brush"]
 STEP = {"side": (0.0, 0.0, -24.0), "above": (0.0, -16.0, 0.0)}  # m from level to level; trees are 16 m apart
 
@@ -73,6 +71,27 @@ def _lit(scene):
     return camera
 
 
+def _plant_firs(shot, stage, scene, level, age, scorch, torched):
+    """Plant a row of firs, 16 m apart, in these levels, by seconds since the front came; the lit camera."""
+    camera, half = _lit(scene), np.full(len(age), 0.5)
+    model = models.instance(np.full(len(age), 3), level)
+    points = {
+        "position": np.arange(len(age))[:, None] * [[16.0, 0.0, 0.0]],
+        "scale": 40.0 * half,
+        "rotation": 0.0 * half,
+        "width": 2.0 * half,
+        "model": model,
+        "snag_model": model,
+        "scorch": scorch,
+        "torched": torched,
+        "arrival_time": scene.get(nodes.TIME, 0.0) - age,
+    }
+    points |= dict.fromkeys(("tint", "dead", "elevation", "canopy_fuel"), half)
+    trees = library.tree_models(shot, stage)
+    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, trees)
+    return camera
+
+
 def _rendered(scene, path):
     render = scene.render
     render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 8, False
@@ -100,23 +119,9 @@ def test_coarser_levels_cover_as_much_and_look_as_bright(looks):
 
 def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, tmp_path):
     """Trees of one model: living, torching, charred with needles, scorched from below, scorched whole."""
-    trees, camera = library.tree_models(shot, stage), _lit(scene)
     age, scorch = np.array([-1e6, 90.0, 600.0, 600.0, 600.0]), np.array([1.0, 1.0, 1.0, 0.4, 1.0])
-    half, model = np.full(5, 0.5), models.instance(np.full(5, 3), np.ones(5, np.int64))
-    points = {
-        "position": np.arange(5)[:, None] * [[16.0, 0.0, 0.0]],
-        "scale": 40.0 * half,
-        "rotation": 0.0 * half,
-        "width": 2.0 * half,
-    }
-    points |= {"model": model, "snag_model": model, "tint": half, "dead": half, "elevation": half}
-    points |= {
-        "canopy_fuel": half,
-        "scorch": scorch,
-        "torched": np.array([1.0, 1.0, 1.0, 0.0, 0.0]),
-        "arrival_time": scene.get(nodes.TIME, 0.0) - age,
-    }
-    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, trees)
+    torched = np.array([1.0, 1.0, 1.0, 0.0, 0.0])
+    camera = _plant_firs(shot, stage, scene, np.ones(5, np.int64), age, scorch, torched)
     camera.location, camera.rotation_euler = (32.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
     camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 80, 160, 48
     pixels = _rendered(scene, tmp_path / "fire.exr").reshape(48, 5, 32, 4)
@@ -133,15 +138,8 @@ def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, t
 
 def test_far_crowns_bear_the_flames_between_them(shot, stage, scene, tmp_path):
     """Trees that the front has not reached, stands among, and has long passed, none of them torched."""
-    trees, camera = library.tree_models(shot, stage), _lit(scene)
-    age, half = np.array([-1e6, 60.0, 1200.0]), np.full(3, 0.5)
-    model = models.instance(np.full(3, 3), np.ones(3, np.int64))
-    points = {"position": np.arange(3)[:, None] * [[16.0, 0.0, 0.0]], "scale": 40.0 * half}
-    points |= {"rotation": 0.0 * half, "width": 2.0 * half, "model": model, "snag_model": model}
-    points |= dict.fromkeys(("tint", "dead", "elevation", "canopy_fuel"), half)
-    points |= {"scorch": 0.0 * half, "torched": 0.0 * half}
-    points["arrival_time"] = scene.get(nodes.TIME, 0.0) - age
-    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, trees)
+    age = np.array([-1e6, 60.0, 1200.0])
+    camera = _plant_firs(shot, stage, scene, np.ones(3, np.int64), age, np.zeros(3), np.zeros(3))
     camera.rotation_euler, camera.data.clip_end = (0.5 * np.pi, 0.0, 0.0), 1.0e5
     camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 48, 48, 24
     red = {}
@@ -156,20 +154,10 @@ def test_far_crowns_bear_the_flames_between_them(shot, stage, scene, tmp_path):
 
 def test_a_far_tree_has_a_sunlit_side_and_burns_as_a_near_one(shot, stage, scene, tmp_path):
     """Living, charred and scorched firs in levels 0 and 3, as small as level 3 is, sun from the right."""
-    trees, camera = library.tree_models(shot, stage), _lit(scene)
-    bpy.data.objects["sun"].rotation_euler = (0.0, 0.9, 0.0)
     state, level = (v.ravel() for v in np.mgrid[:3, :4:3])
-    model, half = models.instance(np.full(6, 3), level), np.full(6, 0.5)
-    points = {
-        "position": np.arange(6)[:, None] * [[16.0, 0.0, 0.0]],
-        "scale": 40.0 * half,
-        "rotation": 0.0 * half,
-        "width": 2.0 * half,
-    }
-    points |= {"model": model, "snag_model": model, "tint": half, "dead": half, "elevation": half}
-    points |= {"canopy_fuel": half, "scorch": 2.0 * half, "torched": np.array([0.0, 1.0, 0.0])[state]}
-    points["arrival_time"] = scene.get(nodes.TIME, 0.0) - np.array([-1e6, 600.0, 600.0])[state]
-    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, trees)
+    age, torched = np.array([-1e6, 600.0, 600.0])[state], np.array([0.0, 1.0, 0.0])[state]
+    camera = _plant_firs(shot, stage, scene, level, age, np.ones(6), torched)
+    bpy.data.objects["sun"].rotation_euler = (0.0, 0.9, 0.0)
     camera.location, camera.rotation_euler = (40.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
     camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 96, 96, 24
     pixels = _rendered(scene, tmp_path / "far.exr").reshape(24, 6, 16, 4)
