@@ -22,9 +22,9 @@ from ..run import burning, content, run_warnings, times, zone
 from ..run.frame import local_frame
 from . import frames
 from .cameras import camera_warnings, path
-from .cameras.filming import Filming
 from .cameras.mesh_error import error_bounds
 from .cameras.path import SENSOR, Path
+from .cameras.rigs import Filming
 from .cameras.visibility import Visibility
 from .fire import air_temperature, flame_depth, smoke_scale
 from .fire.fire import Fire

@@ -72,28 +72,6 @@ def test_a_model_writes_on_while_it_is_watched(tmp_path, monkeypatch, kind):
     check_values(out)
 
 
-def test_a_model_that_is_killed_and_starts_again_makes_a_second_run(tmp_path):
-    (tmp_path / "model").mkdir()
-    out, path = tmp_path / "DIR", tmp_path / "model" / "fire.nc"
-    look = watch._Watch(watch.WatchRequest(tmp_path / "model", out), print)
-    model = growing_model.Process(path, "netcdf4")
-    for _ in range(3):
-        model.append()
-    look.poll()
-    model.kill()
-    first = readers.open(out)
-    model = growing_model.Process(path, "netcdf4", 0.5)
-    for _ in range(TIMES):
-        model.append()
-    look.poll()
-    assert model.close() == (0, "closed\n", "")
-    look.poll()
-    look.poll()
-    assert [each.generation for each in watched.times(out)] == [1] * 2 + [2] * TIMES
-    check_values(out, 0.5)
-    np.testing.assert_array_equal(first.heat_flux(1), growing_model.flux(1))
-
-
 def test_frames_of_a_growing_run_equal_those_of_the_finished_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     model = growing_model.Writer(tmp_path / "fire.nc", "netcdf4")

@@ -119,16 +119,6 @@ def test_all_files_are_made_named_and_listed(film):
     assert all(line.startswith("firetwin: ") for line in said.splitlines())
 
 
-def test_the_first_picture_is_told_and_lines_name_the_last(film):
-    out, (_, said) = film
-    lines = said.splitlines()
-    first = f"firetwin: first picture: {out}/drone/rgb/drone_rgb_000001.png; rendering continues"
-    assert lines.count(first) == 1
-    assert not any("the first picture" in line for line in lines if line != first)
-    (end,) = (line for line in lines if line.startswith("firetwin: rendering: 4 of 4"))
-    assert end.endswith(f", last: {out}/satellite/depth/satellite_depth_000002.exr")
-
-
 @pytest.mark.parametrize("resolution", [(64, 36), (1280, 720)])
 def test_memory_is_expected_before_and_measured_after(firetwin, tmp_path, resolution):
     """Within a factor of 1.5 of each other, of a small picture and of one of 400 times the pixels."""
@@ -162,17 +152,13 @@ def test_the_manifest_tells_what_made_each_file(film):
     assert len(settings["run"]["heat_flux.npy"]) == 64
 
 
-def test_resume_renders_nothing_twice(film, firetwin):
+def test_resume_renders_what_is_damaged_and_no_more(film, firetwin):
     out, _ = film
     before = _state(out)
     listed, said = firetwin("--out", out, "--resume")
     assert _state(out) == before
     assert "nothing to render" in said
     assert "drone_rgb.mp4" in listed
-
-
-def test_resume_renders_what_is_damaged_and_no_more(film, firetwin):
-    out, _ = film
     broken = out / "drone/thermal/drone_thermal_000002.exr"
     content = bytearray(broken.read_bytes())
     content[len(content) // 2] ^= 1
@@ -183,14 +169,6 @@ def test_resume_renders_what_is_damaged_and_no_more(film, firetwin):
     assert "8 of 10 pictures are finished" in said
     changed = _files("drone", "thermal", (2,), "png", "exr") | _files("satellite", "depth", (2,), "exr")
     assert _changed(before, out) - {"drone/drone_thermal.mp4"} == changed | {"manifest.json"}
-    assert "nothing to render" in firetwin("--out", out, "--resume")[1]
-
-
-def test_changed_settings_change_their_own_passes(film, firetwin):
-    out, _ = film
-    before = _state(out)
-    firetwin("--out", out, "--resume", "--frames", "1", render="thermal_high = 700.0\nvideo = false")
-    assert _changed(before, out) == _files("drone", "thermal", (1,), "png", "exr") | {"manifest.json"}
 
 
 def test_without_resume_everything_asked_for_is_rendered_again(film, firetwin):
@@ -241,12 +219,6 @@ def test_a_gpu_that_is_not_there_is_one_line_before_anything_is_built(firetwin, 
     last = err.splitlines()[-1]
     assert 'scene.toml:16:1: device = "gpu", but Cycles finds no GPU' in last
     assert "log of Blender" not in last
-
-
-def test_what_renders_is_told(firetwin, tmp_path):
-    scene = ("--frames", "2", "--camera", "satellite")
-    _, err = firetwin("--out", tmp_path / "out", *scene, render='device = "cpu"')
-    assert "firetwin: Cycles renders on the processor\n" in err
 
 
 def test_a_fused_view_of_small_pictures_is_large_enough_to_read_and_so_is_its_film(firetwin, tmp_path):

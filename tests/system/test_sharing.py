@@ -1,16 +1,13 @@
-"""Renders that share a folder, and what made their files: kills, settings of one camera, changed sources."""
+"""Renders that share a folder: kills, and pictures that are cut off."""
 
 import json
 import os
 import random
-import shutil
 import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
-import firetwin
 import numpy as np
 import pytest
 from firetwin.render.store import Store
@@ -34,7 +31,7 @@ frames = {frames}
 passes = ["rgb", "depth", "normal", "thermal"]
 [[cameras]]
 name = "drone"
-keys = [{{latitude = 38.825, longitude = -120.56, height = {height}, target = "fire"}}]
+keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
 [[cameras]]
 name = "other"
 frames = "1-2"
@@ -44,29 +41,15 @@ keys = [{{latitude = 38.83, longitude = -120.55, height = 500, target = "fire"}}
 
 
 @pytest.fixture
-def package(tmp_path):
-    """A copy of the package, so that its sources change when a test wants it and never else."""
-    copy = tmp_path / "package"
-    for place in firetwin.__path__:
-        if (Path(place) / "scene").is_dir():
-            shutil.copytree(place, copy / "firetwin", ignore=shutil.ignore_patterns("__pycache__"))
-        if (Path(place) / "data").is_dir():
-            shutil.copytree(Path(place) / "data", copy / "firetwin" / "data", dirs_exist_ok=True)
-    return copy
+def start(run_folder, tmp_path):
+    """Start a render: start(out, before=..., frames=...) -> process."""
 
-
-@pytest.fixture
-def start(run_folder, package, tmp_path):
-    """Start a render: start(out, before=..., smoke=..., height=..., frames=...) -> process."""
-
-    def begin(out, before=None, smoke="false", height=400, frames=3):
-        scene = tmp_path / f"scene-{height}-{frames}.toml"
-        scene.write_text(
-            SCENE.format(run=run_folder, cache=tmp_path / "cache", smoke=smoke, height=height, frames=frames)
-        )
+    def begin(out, before=None, frames=3):
+        scene = tmp_path / f"scene-{frames}.toml"
+        scene.write_text(SCENE.format(run=run_folder, cache=tmp_path / "cache", smoke="false", frames=frames))
         environment = dict(os.environ)
-        path = [str(each) for each in (before, package) if each]
-        environment["PYTHONPATH"] = os.pathsep.join([*path, environment.get("PYTHONPATH", "")])
+        if before:
+            environment["PYTHONPATH"] = os.pathsep.join([str(before), environment.get("PYTHONPATH", "")])
         return subprocess.Popen(
             [sys.executable, "-m", "firetwin", "render", scene, "--out", out, "--resume"],
             stdout=subprocess.DEVNULL,
@@ -119,17 +102,6 @@ def _films(out):
     return frames
 
 
-def _made(out):
-    """Number of each entry; a file that was made again has another."""
-    with Store(out) as store:
-        return dict(store.data.fetch_all("SELECT path, number FROM files"))
-
-
-def _passes(before, after):
-    """Camera and pass of files that were made again."""
-    return {tuple(Path(path).parts[:2]) for path in after if before[path] != after[path] and "_0" in path}
-
-
 def test_two_renders_killed_at_random_make_the_files_of_one(start, render, tmp_path):
     chance = random.Random(SEED)
     undisturbed, shared = tmp_path / "one", tmp_path / "two"
@@ -157,43 +129,6 @@ def test_two_renders_killed_at_random_make_the_files_of_one(start, render, tmp_p
     }
     apart = {name: np.abs(film - others[name]).mean(axis=(1, 2, 3)).max() for name, film in films.items()}
     assert max(apart.values()) < 1.5, apart  # neighbouring pictures differ by 1.7 or more
-
-
-def test_two_renders_make_no_picture_twice(start, tmp_path):
-    out = tmp_path / "out"
-    running = [start(out, frames=FRAMES), start(out, frames=FRAMES)]
-    for process in running:
-        assert process.wait(timeout=600) == 0, process.stderr.read()
-    with Store(out) as store:
-        count, last = store.data.fetch_one("SELECT count(*), max(number) FROM files")
-    assert count == last == (FRAMES + 2) * (2 + 1 + 1 + 2) + 4  # files of both cameras, and films
-
-
-def test_settings_of_one_camera_make_its_pictures_again(render, tmp_path):
-    out = tmp_path / "out"
-    render(out, smoke="true")
-    before = _made(out)
-    snapshots = {path: path.stat().st_mtime_ns for path in (tmp_path / "cache").glob("*/moment*")}
-    render(out, smoke="true", height=450)
-    after = _made(out)
-    assert {path for path in before if path.startswith("other/")} <= {
-        path for path in after if after[path] == before[path]
-    }
-    assert {path for path in after if path.startswith("drone/") and after[path] == before[path]} == set()
-    assert all(path.stat().st_mtime_ns == changed for path, changed in snapshots.items())
-    assert "nothing to render" in render(out, smoke="true", height=450)
-
-
-def test_a_changed_source_of_the_smoke_makes_what_shows_smoke_again(render, package, tmp_path):
-    out = tmp_path / "out"
-    render(out, smoke="true")
-    before, cache = _made(out), set((tmp_path / "cache").iterdir())
-    source = package / "firetwin" / "smoke" / "atmosphere.py"
-    source.write_text(source.read_text() + "\nMORE = 1\n")
-    render(out, smoke="true")
-    again = _passes(before, _made(out))
-    assert again == {(camera, name) for camera in ("drone", "other") for name in ("rgb", "thermal")}
-    assert len({each for each in (tmp_path / "cache").iterdir() if each.is_dir()} - cache) == 2
 
 
 def test_a_cut_off_picture_is_never_entered(start, tmp_path):

@@ -15,6 +15,7 @@ from firetwin.errors import InputError
 from firetwin.jobs import build as build_job
 from firetwin.jobs import render as render_job
 from firetwin.jobs import worker
+from firetwin.progress import no_message, silent
 from firetwin.shot.sections import SmokeSettings
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
@@ -97,7 +98,6 @@ def test_a_full_disk_is_a_message_and_what_was_there_stays(panel, blend, run, ti
     firetwin.register()
 
 
-def here(task, arguments, progress, tell=lambda text: None, **_):
+def here(work, progress=silent, tell=no_message, **_):
     """Replacement of a separate process."""
-    module, _, function = task.partition(":")
-    return getattr(__import__(module, fromlist=["x"]), function)(progress=progress, tell=tell, **arguments)
+    return work(progress=progress, tell=tell)

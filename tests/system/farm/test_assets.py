@@ -6,7 +6,7 @@ from pathlib import Path
 
 import farm_inputs
 import pytest
-from farm_film import firetwin, pictures, start
+from farm_film import firetwin, pictures
 
 
 @pytest.fixture(scope="module")
@@ -39,19 +39,3 @@ def test_a_task_needs_nothing_but_what_its_job_lists(here, tmp_path):
         away.rename(here.parent)
     assert pictures(moved) == pictures(tmp_path / "one")
     assert len(pictures(moved)) == 2 * 2
-
-
-@pytest.mark.parametrize("name", [*farm_inputs.NAMED, "run/run.toml", "run/elevation.npy", "scene.toml"])
-def test_what_is_missing_is_named_before_anything_is_submitted(here, tmp_path, name):
-    path, away = here.parent / name, tmp_path / "away"
-    path.rename(away)
-    try:
-        process = start("farm", here, "--engine", "slurm", "--out", tmp_path / "out", "--submit")
-        _, errors = process.communicate(timeout=60)
-    finally:
-        away.rename(path)
-    assert process.returncode == 1
-    folder_is_named = name.startswith("observed/")  # its content is unknown
-    assert ("fire.observed" if folder_is_named else path.stem) in errors
-    assert "Traceback" not in errors
-    assert not (tmp_path / "out").exists()

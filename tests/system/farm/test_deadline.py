@@ -65,9 +65,3 @@ def test_what_is_submitted_again_takes_along_what_there_is(read, planned, tasks,
     more = {Path(each).name for each in inputs} - {Path(each).name for each in before}
     assert {Path(each).name for each in rendered(out)} <= more
     assert sum(each.endswith(".jsonl") for each in more) == 2
-
-
-def test_a_bundle_with_a_missing_asset_is_refused_by_name(read, planned):
-    path, out = planned
-    path.rename(path.with_suffix(".away"))
-    assert f"Missing input files:\n\t{path}" in read(out / "farm" / "deadline", status=1)

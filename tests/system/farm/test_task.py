@@ -105,20 +105,3 @@ def test_a_full_disk_is_a_reason_to_try_again(film, tasks, tmp_path):
     firetwin("farm", "task", out, 4)
     firetwin("farm", "assemble", out)
     assert pictures(out) == pictures(film[1])
-
-
-def test_a_gpu_that_is_not_there_is_a_reason_to_try_again(film, tmp_path):
-    path, out = tmp_path / "scene.toml", tmp_path / "out"
-    path.write_text(film[0].read_text().replace("chunk = 2\n", 'chunk = 2\ndevice = "gpu"\n'))
-    firetwin("farm", path, "--engine", "slurm", "--out", out)
-    firetwin("farm", "task", out, 1, status=75)
-    assert "Cycles finds no GPU" in firetwin("farm", "status", out)
-
-
-def test_wrong_input_is_no_reason_to_try_again(tasks, tmp_path):
-    out = without(tasks, tmp_path / "out")
-    firetwin("farm", "task", out, 5, status=2)
-    path = out / "farm" / "job.json"
-    path.write_text(path.read_text().replace('"firetwin":"', '"firetwin":"1'))
-    firetwin("farm", "task", out, 1, status=2)
-    firetwin("farm", "assemble", out, status=2)

@@ -45,11 +45,6 @@ def test_a_subject_is_measured_and_printed(monkeypatch, capsys):
         module.main()
 
 
-def test_no_benchmark_has_the_name_of_another():
-    shipped = {path.name for path in (Path(__file__).parents[3] / "addon/bench").glob("*.py")}
-    assert not shipped & {path.name for path in FOLDER.glob("*.py")}
-
-
 def test_errors_of_positions_are_errors():
     pytest.importorskip("mpmath")
     points = np.array([38.5, 39.1]), np.array([-121.0, -120.2]), np.array([200.0, 3000.0])
@@ -63,22 +58,3 @@ def test_the_flow_keeps_heat_and_smoke():
     assert given < 1e-9
     assert held < 1e-4
     assert flow_conservation.written() < 1e-6
-
-
-def test_the_exact_particle_solves_its_equation():
-    """Against Runge and Kutta's method with small steps."""
-    pull = np.array([0, 0, particles.LIFT])
-
-    def slope(time, state):
-        drag = (particles.wind(time) - state[3:]) / particles.RELAXATION
-        return np.concatenate([state[3:], drag + pull])
-
-    state, step = np.concatenate([np.zeros(3), particles.VELOCITY]), 1e-3
-    for i in range(2000):
-        a = slope(i * step, state)
-        b = slope((i + 0.5) * step, state + step / 2 * a)
-        c = slope((i + 0.5) * step, state + step / 2 * b)
-        d = slope((i + 1) * step, state + step * c)
-        state = state + step / 6 * (a + 2 * b + 2 * c + d)
-    np.testing.assert_allclose(particles.exact(2.0), state[:3], rtol=0, atol=1e-9)
-    assert np.linalg.norm(particles.euler(240, 2) - particles.exact(particles.SECONDS)) < 0.1

@@ -153,11 +153,19 @@ def test_a_bundle_lists_every_asset_and_bakes_before_it_renders(make_shot, tmp_p
     shot = make_shot(4, {"drone": "", "other": ""}, chunk=2, smoke='method = "flow"')
     farm_job, out = plan.make_job(shot, shot.settings.path, 2), tmp_path / "out"
     batch = Batch(farm_job, out, tuple(range(1, len(farm_job.tasks) + 1)))
-    steps = [each["name"] for each in openjd.template(batch)["steps"]]
-    assert steps == ["Bake", "Render", "Assemble"]
     command = deadline.Deadline().write(batch)
-    listed = json.loads((Path(command[-1]) / "asset_references.json").read_text())
-    assert set(farm_job.assets) < set(listed["assetReferences"]["inputs"]["filenames"])
+    template, values, references = (
+        json.loads((Path(command[-1]) / f"{name}.json").read_text())
+        for name in ("template", "parameter_values", "asset_references")
+    )
+    steps = {
+        each["name"]: [d["dependsOn"] for d in each.get("dependencies", ())] for each in template["steps"]
+    }
+    assert steps == {"Bake": [], "Render": ["Bake"], "Assemble": ["Bake", "Render"]}
+    valued = {each["name"] for each in values["parameterValues"]}
+    assert {each["name"] for each in template["parameterDefinitions"]} <= valued
+    inputs = references["assetReferences"]["inputs"]["filenames"]
+    assert {*farm_job.assets, str(out / "farm" / "job.json")} <= set(inputs)
     partial = Batch(farm_job, out, tuple(farm_job.numbers("render")[:1]))
     assert [each["name"] for each in openjd.template(partial)["steps"]] == ["Render", "Assemble"]
 
@@ -478,24 +486,6 @@ def test_arrays_have_every_task_once_and_small_indices(numbers, most):
 def _span(part):
     low, _, high = part.partition("-")
     return range(int(low), int(high or low) + 1)
-
-
-def test_a_bundle_names_all_files_and_values(tmp_path):
-    made = job([Task("bake", ("drone",), "1-4"), Task("render", ("drone",), "1-4")], assets=("/a/run.toml",))
-    known()["deadline"]().write(Batch(made, tmp_path, (1, 2)))
-    folder = tmp_path / "farm" / "deadline"
-    template, values, references = (
-        json.loads((folder / f"{name}.json").read_text())
-        for name in ("template", "parameter_values", "asset_references")
-    )
-    given_values = {each["name"] for each in values["parameterValues"]}
-    assert {each["name"] for each in template["parameterDefinitions"]} <= given_values
-    steps = {
-        each["name"]: [d["dependsOn"] for d in each.get("dependencies", ())] for each in template["steps"]
-    }
-    assert steps == {"Bake": [], "Render": ["Bake"], "Assemble": ["Bake", "Render"]}
-    inputs = references["assetReferences"]["inputs"]["filenames"]
-    assert inputs == ["/a/run.toml", str(tmp_path / "farm" / "job.json")]
 
 
 @pytest.mark.parametrize("verb", command.VERBS)

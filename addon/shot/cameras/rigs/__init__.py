@@ -8,6 +8,7 @@ description.
 from __future__ import annotations
 
 import functools
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from .... import plugins
@@ -21,12 +22,34 @@ if TYPE_CHECKING:
     from ...frames import Frames
     from ...schema import Where
     from ...sections.camera import CameraSettings
-    from ..filming import Filming
     from ._view import View
 
     Place = tuple[Where, float, float]
 
 USUAL = "drone"  # default kind
+
+
+@dataclass(frozen=True)
+class Filming:
+    """Run, frames and cameras for which paths are computed.
+
+    Attributes
+    ----------
+    size
+        Width and height of pictures, pixels, of cameras that do not set them.
+    seed
+        Random seed of vibration.
+    """
+
+    run: Run
+    frames: Frames
+    cameras: Sequence[CameraSettings]
+    size: tuple[int, int]
+    seed: int
+
+    def resolution(self, camera: CameraSettings) -> tuple[int, int]:
+        """Picture width and height of a camera, pixels."""
+        return camera.resolution or self.size
 
 
 class Rig:

@@ -13,7 +13,7 @@ from . import Rig
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
-    from ..filming import Filming
+    from . import Filming
 
 FOCAL_LENGTH: Bounds = {"unit": "mm", "at_least": 1, "at_most": 5000}
 

@@ -16,7 +16,7 @@ from ._lens import LensRig
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
     from ...terrain.terrain import Terrain
-    from ..filming import Filming
+    from . import Filming
     from ._view import View
 
 _RIDGE_MARGIN = 40.0  # m that the line of sight clears ridges by at most

@@ -17,8 +17,7 @@ from ._lens import LensRig
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
     from ...terrain.terrain import Terrain
-    from ..filming import Filming
-    from . import Place
+    from . import Filming, Place
     from ._view import View
 
 _FAR = 5000.0  # m, distance of its look-at points

@@ -17,7 +17,7 @@ from .satellite import down
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
     from ...terrain.terrain import Terrain
-    from ..filming import Filming
+    from . import Filming
     from ._view import View
 
 

@@ -15,7 +15,7 @@ from ._lens import FOCAL_LENGTH, LensRig
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
     from ...terrain.terrain import Terrain
-    from ..filming import Filming
+    from . import Filming
 
 
 @dataclass(frozen=True)

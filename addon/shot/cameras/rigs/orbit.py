@@ -16,8 +16,7 @@ from ._lens import FOCAL_LENGTH, LensRig
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
     from ...terrain.terrain import Terrain
-    from ..filming import Filming
-    from . import Place
+    from . import Filming, Place
     from ._view import View
 
 

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from ...frames import Frames
     from ...sections.camera import CameraSettings
     from ...terrain.terrain import Terrain
-    from ..filming import Filming
-    from . import Place
+    from . import Filming, Place
 
 
 @dataclass(frozen=True)
