@@ -35,7 +35,7 @@ class Growth:
 
 
 _read: dict[Path, Growth] = {}
-_latest: dict[Path, Growth] = {}
+"""State of each folder when its run was read."""
 
 
 def start(folder: Path, read: Growth) -> None:
@@ -49,20 +49,19 @@ def start(folder: Path, read: Growth) -> None:
     if not watched.is_watched(folder):
         _watch.stop()
         return
-    _read[folder] = _latest[folder] = read
-    _watch.start(folder)
+    _read[folder] = read
+    _watch.start(folder, read)
 
 
 def unregister() -> None:
     """Stop looking, and forget all states."""
-    _watch.stop()
+    _watch.clear()
     _read.clear()
-    _latest.clear()
 
 
 def draw_run(context: bpy.types.Context, layout: bpy.types.UILayout, folder: Path) -> None:
     """Draw the state of a growing run, and a button to read its new times."""
-    growth, read = _latest.get(folder), _read.get(folder)
+    growth, read = _watch.states.get(folder), _read.get(folder)
     if growth is None:
         return
     text = f"The model is {growth.state}; newest time {growth.newest}" if growth.newest else "No time yet"
@@ -83,13 +82,11 @@ def look(folder: Path) -> Growth:
     return Growth(state, (last.generation, last.revision), f"{last.moment:%Y-%m-%d %H:%M} UTC")
 
 
-def _try_to_look(folder: Path) -> None:
+def _look_again(folder: Path) -> Growth:
     try:
-        _latest[folder] = look(folder)
-    except Exception:  # such as a folder that was removed; the state stays
-        return
+        return look(folder)
+    except Exception:  # such as a folder that was removed
+        return _watch.states[folder]
 
 
-_watch = FolderWatch(
-    _try_to_look, lambda folder: _latest[folder].state in watched.FINAL, _PERIOD, persistent=True
-)
+_watch = FolderWatch(_look_again, lambda growth: growth.state in watched.FINAL, _PERIOD, persistent=True)

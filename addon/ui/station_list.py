@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import bpy
 
@@ -60,19 +60,27 @@ class Detail:
     lines: list[tuple[str, str]]
 
 
-_shown = ListState()
-_detail: tuple[tuple[str, int] | None, Detail | None] = (None, None)
+@dataclass
+class _Session:
+    """State of the list, and details of the station that was described last."""
+
+    shown: ListState = field(default_factory=ListState)
+    described: tuple[str, Loaded | None] | None = None
+    detail: Detail | None = None
+
+
+_session = _Session()
 
 
 def shown() -> ListState:
     """Return the state of the list."""
-    return _shown
+    return _session.shown
 
 
 def detail(panel: bpy.types.PropertyGroup) -> Detail | None:
     """Return the details of the selected station; None before `describe` has run."""
-    known, found = _detail
-    return found if known is not None and known[0] == panel.station else None
+    described = _session.described
+    return _session.detail if described is not None and described[0] == panel.station else None
 
 
 def refresh(panel: bpy.types.PropertyGroup) -> bool:
@@ -85,10 +93,8 @@ def refresh(panel: bpy.types.PropertyGroup) -> bool:
         return wanted is not None and loaded is None
     try:
         asked = station_filter.query(panel, loaded)
-        if (wanted, asked) != (_shown.wanted, _shown.query):
-            _publish(_survey(wanted, loaded, asked))
-        else:
-            _publish(_shown)
+        same = (wanted, asked) == (shown().wanted, shown().query)
+        _publish(shown() if same else _survey(wanted, loaded, asked))
     except Error as error:
         _publish(ListState(wanted, None, loaded, status=str(error)))
     describe(panel)
@@ -97,13 +103,12 @@ def refresh(panel: bpy.types.PropertyGroup) -> bool:
 
 def describe(panel: bpy.types.PropertyGroup) -> None:
     """Collect the details of the selected station."""
-    global _detail
-    loaded, now = _shown.loaded, (panel.station, id(_shown.loaded))
-    if _detail[0] == now:
+    loaded, described = shown().loaded, _session.described
+    if described is not None and described[0] == panel.station and described[1] is loaded:
         return
+    _session.described, _session.detail = (panel.station, loaded), None
     station = None if loaded is None else listing.find(loaded.station_file.stations, panel.station)
     if loaded is None or station is None:
-        _detail = now, None
         return
     lines = listing.facts(loaded.station_file, station)
     if loaded.run is not None and loaded.arrivals is not None:
@@ -111,18 +116,17 @@ def describe(panel: bpy.types.PropertyGroup) -> None:
         reached = str(arrival_text.describe(loaded.run, loaded.arrivals, row, clock))
         marked = not lines[-1][0]  # the label of an exercise comes last
         lines.insert(len(lines) - marked, ("Fire", reached))
-    _detail = now, Detail(station, lines)
+    _session.detail = Detail(station, lines)
 
 
 def place(panel: bpy.types.PropertyGroup) -> int:
     """Return the index of the selected station in the list; -1 if it is not listed."""
-    return _shown.place.get(panel.station, -1)
+    return shown().place.get(panel.station, -1)
 
 
 def clear() -> None:
     """Clear the list."""
-    global _shown, _detail
-    _shown, _detail = ListState(), (None, None)
+    _session.shown, _session.described, _session.detail = ListState(), None, None
     station_data.clear()
 
 
@@ -138,16 +142,14 @@ def _survey(wanted: Key, loaded: Loaded, asked: Query) -> ListState:
 
 def _publish(now: ListState) -> None:
     """Write the rows for the panel, if they have changed."""
-    global _shown
-    held = bpy.context.window_manager.firetwin_stations
-    same = (now.wanted, now.query, now.status) == (_shown.wanted, _shown.query, _shown.status)
-    if same and held.stamp == _shown.stamp and len(held.rows) == len(_shown.rows):
+    held, before = bpy.context.window_manager.firetwin_stations, shown()
+    same = (now.wanted, now.query, now.status) == (before.wanted, before.query, before.status)
+    if same and held.stamp == before.stamp and len(held.rows) == len(before.rows):
         return
-    values = {name: getattr(now, name) for name in ("wanted", "query", "loaded", "rows", "place", "status")}
-    _shown = ListState(**values, stamp=_shown.stamp + 1)
-    held.stamp = _shown.stamp
+    _session.shown = replace(now, stamp=before.stamp + 1)
+    held.stamp = _session.shown.stamp
     held.rows.clear()
-    for each in _shown.rows:
+    for each in now.rows:
         row = held.rows.add()
         row.name, row.kind, row.exercise = each.station.name, each.station.kind, each.exercise
         row.minutes = "" if each.minutes is None else f"{each.minutes:.0f} min"

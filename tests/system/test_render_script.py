@@ -46,7 +46,7 @@ def test_what_it_does_not_know_ends_in_its_usage(script, tmp_path, arguments):
     assert _calls(tmp_path) == []
 
 
-def test_a_still_is_the_first_picture_of_the_drone_and_no_more(script, tmp_path):
+def test_a_still_is_the_first_picture_of_the_drone(script, tmp_path):
     result = script("--still")
     assert result.returncode == 0, result.stderr
     assert _calls(tmp_path) == ["render king_fire.toml --out out/film --frames 1 --camera drone --resume"]

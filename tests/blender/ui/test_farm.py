@@ -11,7 +11,6 @@ import pytest
 from firetwin import cli
 from firetwin.farm import panel as farm
 from firetwin.farm import plan, submission
-from firetwin.farm.panel import watch as farm_watch
 from firetwin.jobs.worker import StoppedError
 from firetwin.ui import folder_watch, job, working
 
@@ -97,7 +96,7 @@ def test_what_is_submitted_is_followed_resumed_and_cancelled(panel, tmp_path, sl
     )
     tasks = len(plan.read(farm._output_folder(panel)).tasks)
     assert slurm().count("sbatch") == 2  # render and assemble
-    assert farm_watch.last_status(farm._output_folder(panel)).waiting == list(range(1, tasks + 1))
+    assert farm.status_watch.states[farm._output_folder(panel)].waiting == list(range(1, tasks + 1))
     assert bpy.ops.firetwin.farm_status() == {"FINISHED"}
     assert told(farm.FIRETWIN_OT_farm_status)[0].startswith(
         f"0 done, 0 running, 0 failed, {tasks} waiting, of {tasks}"
@@ -173,7 +172,7 @@ def test_the_choices_are_saved_with_the_file(panel, tmp_path):
 def test_the_panel_reads_no_file(panel, monkeypatch):
     bpy.ops.firetwin.farm_write()
     bpy.ops.firetwin.farm_status()
-    status = farm_watch.last_status(farm._output_folder(panel))
+    status = farm.status_watch.states[farm._output_folder(panel)]
     monkeypatch.setattr("firetwin.farm.status.gather", lambda *_: pytest.fail("the panel reads"))
     drawn = []
 
@@ -199,17 +198,17 @@ def test_the_panel_reads_no_file(panel, monkeypatch):
 def test_the_watch_follows_a_job_until_it_is_done(panel, monkeypatch):
     bpy.ops.firetwin.farm_write()
     out = farm._output_folder(panel)
-    monkeypatch.setattr(farm_watch.status_watch, "folder", out)
+    monkeypatch.setattr(farm.status_watch, "folder", out)
 
     def looked():
-        assert farm_watch.status_watch.tick() == folder_watch.SHORT
-        farm_watch.status_watch.thread.join()
-        return farm_watch.status_watch.tick()
+        assert farm.status_watch.tick() == folder_watch.SHORT
+        farm.status_watch.thread.join()
+        return farm.status_watch.tick()
 
-    assert looked() == farm_watch._PERIOD
-    assert farm_watch.last_status(out).waiting
+    assert looked() == farm._PERIOD
+    assert farm.status_watch.states[out].waiting
     (out / "farm/job.json").write_text("{")
     assert looked() is None
-    assert "not a farm job of this version" in farm_watch.last_status(out)
-    farm_watch.stop_watch()
-    assert farm_watch.last_status(out) is None
+    assert "not a farm job of this version" in farm.status_watch.states[out]
+    farm.status_watch.clear()
+    assert farm.status_watch.states == {}

@@ -13,8 +13,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from firetwin import cli
+from firetwin.farm import command as farm
 from firetwin.shot.settings import scene_file
 from small_run import RUN_TOML, small_fields
+
+COMMANDS = ["sample", "info", "new", "maps", "score", "imager", "build", "bake", "render", "schema", "bench"]
 
 
 def firetwin(*arguments, cwd="."):
@@ -45,22 +48,7 @@ def test_help_names_every_command():
     command = [sys.executable, "-m", "firetwin", "--help"]
     result = subprocess.run(command, capture_output=True, text=True)
     assert result.returncode == 0
-    assert all(
-        f"    {name}  " in result.stdout
-        for name in (
-            "sample",
-            "info",
-            "new",
-            "maps",
-            "score",
-            "imager",
-            "build",
-            "bake",
-            "render",
-            "schema",
-            "bench",
-        )
-    )
+    assert all(f"    {name}  " in result.stdout for name in COMMANDS)
     assert result.stderr == ""
 
 
@@ -96,12 +84,9 @@ sys.exit(main(["maps", *sys.argv[1:]]))
     assert "Traceback" not in result.stderr
 
 
-@pytest.mark.parametrize(
-    "command",
-    ["sample", "info", "new", "maps", "score", "imager", "build", "bake", "render", "schema", "bench"],
-)
+@pytest.mark.parametrize("command", [*COMMANDS, *(f"farm {verb}" for verb in farm.VERBS)])
 def test_every_command_explains_itself(command):
-    result = firetwin(command, "--help")
+    result = firetwin(*command.split(), "--help")
     assert result.returncode == 0
     assert result.stdout.startswith(f"usage: firetwin {command} ")
     assert "--debug" in result.stdout

@@ -1,6 +1,7 @@
 """Memory of the worker: few heaps, return of free memory, and the peak as the system counts it."""
 
 import os
+import platform
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +11,7 @@ import pytest
 from firetwin import memory
 from firetwin.jobs import worker
 
-GLIBC = pytest.mark.skipif(not memory._glibc(), reason="the C library is not glibc")
+GLIBC = pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="the C library is not glibc")
 HOLES = """
 import numpy
 from firetwin import memory

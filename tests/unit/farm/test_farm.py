@@ -18,7 +18,7 @@ from firetwin.errors import (
     full_disk_error,
     input_error,
 )
-from firetwin.farm import assemble, assets, command, entries, lost, plan, private, status, task
+from firetwin.farm import assemble, assets, entries, lost, plan, private, status, task
 from firetwin.farm.engines import Batch, deadline, known, openjd
 from firetwin.farm.engines.slurm import split_arrays
 from firetwin.farm.entries import Entry
@@ -486,14 +486,6 @@ def test_arrays_have_every_task_once_and_small_indices(numbers, most):
 def _span(part):
     low, _, high = part.partition("-")
     return range(int(low), int(high or low) + 1)
-
-
-@pytest.mark.parametrize("verb", command.VERBS)
-def test_every_verb_has_help(verb, capsys):
-    with pytest.raises(SystemExit) as ended:
-        cli.main(["farm", verb, "--help"])
-    assert ended.value.code == 0
-    assert capsys.readouterr().out
 
 
 def test_the_command_line_takes_a_scene_or_a_verb():

@@ -11,24 +11,25 @@ from typing import Any
 
 import bpy
 
-from ...errors import Error
-from ...jobs.worker import Stop, StoppedError
-from ...progress import MessageCallback, Progress, count
-from ...shot.source import ShotSource
-from ...ui import camera_edits, job, keys, run, scene_file, working
-from ...ui.job import InThread, Message, Steps
-from ...ui.menu_entries import Entry
-from ...ui.sidebar import SidebarPanel
-from ...ui.text import draw_paragraph, labelled_row
-from ...ui.working import Working
-from .. import engines, plan, status, submission
-from ..status import Status
-from ..submission import Submission
-from . import watch
+from ..errors import Error
+from ..jobs.worker import Stop, StoppedError
+from ..progress import MessageCallback, Progress, count
+from ..shot.source import ShotSource
+from ..ui import camera_edits, job, keys, run, scene_file, working
+from ..ui.folder_watch import FolderWatch
+from ..ui.job import InThread, Message, Steps
+from ..ui.menu_entries import Entry
+from ..ui.sidebar import SidebarPanel
+from ..ui.text import draw_paragraph, labelled_row
+from ..ui.working import Working
+from . import engines, plan, status, submission
+from .status import Status
+from .submission import Submission
 
 NOT_SAVED = "Save the .blend file first; the scene file of the job is written next to it"
 NO_OUTPUT = "Choose an output folder for the farm first"
 NO_JOB = "has no farm job; write one with Write farm job"
+_PERIOD = 10.0  # s between readings of the status
 
 
 def _engine_items() -> tuple[tuple[str, str, str, str, int], ...]:
@@ -147,9 +148,24 @@ def _write_files(context: bpy.types.Context) -> Generator[InThread | Message, An
 def _submit(command: list[str], out: Path, last: str) -> Steps:
     """Run a scheduler's command, then read the status of the job."""
     yield InThread("submitting", functools.partial(submission.run_command, command, out))
-    yield InThread("reading the status", lambda **_: watch.read_status(out))
-    watch.status_watch.start(out)
+    status_watch.start(out, (yield InThread("reading the status", lambda **_: status.gather(out))))
     return last
+
+
+def _read_status(out: Path) -> Status | str:
+    """Read the status of a job, or the message of an error."""
+    try:
+        return status.gather(out)
+    except Exception as error:
+        return job.describe_error(error)
+
+
+def _is_final(state: Status | str) -> bool:
+    return isinstance(state, str) or not (state.running or state.waiting)
+
+
+status_watch = FolderWatch(_read_status, _is_final, _PERIOD)
+"""Watch of the job of the open file."""
 
 
 class FarmProperties:
@@ -231,9 +247,8 @@ class FIRETWIN_OT_farm_status(_JobOperator, bpy.types.Operator):
         """Read the files in a thread; the panel reads them again while tasks are unfinished."""
         out = _output_folder(context.scene.firetwin)
         _check_job(out)
-        found = yield InThread("reading the status", lambda **_: watch.read_status(out))
-        if watch.is_unfinished(found):
-            watch.status_watch.start(out)
+        found = yield InThread("reading the status", lambda **_: status.gather(out))
+        status_watch.start(out, found)
         return "; ".join(text for _, text in status.rows(found))
 
 
@@ -300,7 +315,7 @@ class FIRETWIN_PT_farm(SidebarPanel, bpy.types.Panel):
         for operator in _WORKS:
             working.draw_messages(context, layout, operator)
         if panel.farm_output and scene_file.resolve_path(panel.farm_output):
-            _draw_status(context, layout, watch.last_status(_output_folder(panel)))
+            _draw_status(context, layout, status_watch.states.get(_output_folder(panel)))
 
 
 def _draw_status(context: bpy.types.Context, layout: bpy.types.UILayout, state: Status | str | None) -> None:
@@ -331,7 +346,7 @@ properties = FarmProperties
 
 def unregister() -> None:
     """Stop watching the job."""
-    watch.stop_watch()
+    status_watch.clear()
 
 
 menu = {
