@@ -72,7 +72,7 @@ def run(
     InputError, Error, UsageError
         The output folder is in use or cannot be written, or an option is invalid.
     """
-    watch = _Watch(request, tell)
+    watch = Watch(request, tell)
     while True:
         pause = watch.poll()
         polls -= 1
@@ -87,7 +87,7 @@ def _log_folder(source: Path) -> Path:
     return source if source.is_dir() and not is_store else source.parent
 
 
-class _Watch:
+class Watch:
     """State of a watch between polls."""
 
     def __init__(self, request: WatchRequest, tell: MessageCallback) -> None:

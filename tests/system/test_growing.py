@@ -58,7 +58,7 @@ def test_a_model_writes_on_while_it_is_watched(tmp_path, monkeypatch, kind):
     monkeypatch.setenv("HDF5_USE_FILE_LOCKING", "TRUE")
     (tmp_path / "model").mkdir()
     out, end = tmp_path / "DIR", BEGIN + timedelta(seconds=growing_model.STEP * (TIMES - 1))
-    look = watch._Watch(watch.WatchRequest(tmp_path / "model", out, end=end), print)
+    look = watch.Watch(watch.WatchRequest(tmp_path / "model", out, end=end), print)
     path = tmp_path / "model" / ("fire.zarr" if kind == "zarr" else "fire.nc")
     model = growing_model.Process(path, kind)
     for done in range(1, TIMES + 1):
@@ -76,7 +76,7 @@ def test_frames_of_a_growing_run_equal_those_of_the_finished_run(tmp_path, monke
     monkeypatch.chdir(tmp_path)
     model = growing_model.Writer(tmp_path / "fire.nc", "netcdf4")
     end = BEGIN + timedelta(seconds=3 * growing_model.STEP)
-    look = watch._Watch(watch.WatchRequest(tmp_path / "fire.nc", tmp_path / "DIR", end=end), print)
+    look = watch.Watch(watch.WatchRequest(tmp_path / "fire.nc", tmp_path / "DIR", end=end), print)
     model.append()
     said = []
 

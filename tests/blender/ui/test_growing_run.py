@@ -33,7 +33,7 @@ def model(tmp_path, monkeypatch):
     """A model with two complete times, and its watch."""
     monkeypatch.setattr(watch.worker, "run", lambda work, **_: work())
     writer = growing_model.Writer(tmp_path / "fire.nc", "netcdf3")
-    look = watch._Watch(watch.WatchRequest(tmp_path / "fire.nc", tmp_path / "DIR", idle=1e-6), lambda _: None)
+    look = watch.Watch(watch.WatchRequest(tmp_path / "fire.nc", tmp_path / "DIR", idle=1e-6), lambda _: None)
     for _ in range(3):
         writer.append()
     look.poll()

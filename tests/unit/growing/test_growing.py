@@ -34,7 +34,7 @@ class Watched:
         self.said = []
         self.path = self.source / NAMES[kind]
         self.model = growing_model.Writer(self.path, kind)
-        self.watch = watch._Watch(watch.WatchRequest(self.source, self.out, **options), self.said.append)
+        self.watch = watch.Watch(watch.WatchRequest(self.source, self.out, **options), self.said.append)
 
     def poll(self, times=1) -> str:
         for _ in range(times):
@@ -129,7 +129,7 @@ def test_a_watch_continues_after_it_was_killed(in_process, tmp_path):
     (left.parent / ".000004.abc.part").mkdir()
     run.model.append()
     run.model.close()
-    run.watch = watch._Watch(run.watch.request, run.said.append)
+    run.watch = watch.Watch(run.watch.request, run.said.append)
     run.poll(2)
     assert [seconds for seconds, _ in run.accepted()] == [0.0, 600.0, 1200.0]
     assert len(readers.open(run.out).times) == 3
@@ -190,7 +190,7 @@ def test_a_run_ends_at_a_stated_time_or_when_its_files_rest(in_process, tmp_path
     run.model.append()
     assert (run.poll(), run.poll()) == ("running", "ended")
     run.model.close()
-    run.watch = watch._Watch(watch.WatchRequest(run.source, tmp_path / "two", idle=1e-6), run.said.append)
+    run.watch = watch.Watch(watch.WatchRequest(run.source, tmp_path / "two", idle=1e-6), run.said.append)
     assert run.poll(2) == "ended"
     assert [each.complete for each in watched.times(tmp_path / "two")] == ["next", "end"]
 
@@ -205,7 +205,7 @@ def test_wrf_files_become_the_run_that_a_conversion_makes(in_process, tmp_path):
     source.mkdir()
     files, _ = model_files.wrf(made, times=(60, 120, 180), per_file=1)
     said, arrivals = [], []
-    look = watch._Watch(watch.WatchRequest(source, tmp_path / "DIR", name="Fire"), said.append)
+    look = watch.Watch(watch.WatchRequest(source, tmp_path / "DIR", name="Fire"), said.append)
     log = source / model_log.NAME
     log.write_text("")
     for done, path in enumerate(files, start=1):
