@@ -340,7 +340,8 @@ def test_the_report_is_one_page_with_its_pictures_inside(round_run, against):
         head, data = picture.split(",")
         assert head == "data:image/png;base64"
         assert base64.b64decode(data).startswith(b"\x89PNG")
-    assert not parts.open
+    for tag in ("main", "table", "section", "div"):
+        assert len(parts.all(tag)) == text.count(f"</{tag}>"), tag
     assert "synthetic" not in text
 
 
