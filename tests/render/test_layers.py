@@ -89,7 +89,7 @@ def render(plain, shot, stage, tmp_path):
     return shoot
 
 
-def test_depth_is_that_of_an_analytic_plane(render, settings):
+def test_depth_is_that_of_an_analytic_plane_behind_flames_and_smoke(render, settings):
     (depth,) = render("depth").values()
     width, height = settings.render.resolution
     assert depth.shape == (height, width, 2)
@@ -105,12 +105,6 @@ def test_depth_is_that_of_an_analytic_plane(render, settings):
     error = np.abs(depth[..., 0] - expected[:, None])[seen]
     assert (error <= 1.1 * shift[seen, None] + 1e-5 * expected[seen, None]).all()
     assert (depth[..., 0][expected > 1e9] == 1e10).all()
-
-
-def test_depth_is_of_the_ground_behind_flames_and_smoke(render):
-    (depth,) = render("depth").values()
-    spread = np.ptp(depth[..., 0], axis=1) / depth[..., 0].mean(axis=1)
-    assert spread.max() < 0.02  # the card at 60 m and the smoke would halve it
 
 
 def test_temperatures_come_through_the_whole_chain(render):

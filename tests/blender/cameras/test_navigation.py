@@ -1,18 +1,16 @@
 """Cameras in the window: from the view, keyed, aimed, on curves; navigation to places and times."""
 
 import bpy
-import firetwin
 import numpy as np
+import panel_scene
 import pytest
 import small_stations
 from firetwin.blender import owned
 from firetwin.errors import Error
 from firetwin.scene.camera import ground_raycast, read_edits
-from firetwin.shot import schema
 from firetwin.shot.cameras import rigs, targets
 from firetwin.shot.cameras.lenses import LENSES
 from firetwin.shot.cameras.rigs.poses import Poses
-from firetwin.shot.sections import TileSettings
 from firetwin.shot.stations import station_signs
 from firetwin.ui import (
     camera_list,
@@ -20,7 +18,6 @@ from firetwin.ui import (
     coordinates,
     events,
     go_to,
-    keys,
     landmarks,
     navigation,
     place_names,
@@ -34,13 +31,10 @@ EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to
 @pytest.fixture
 def panel(panel_blend, plain_looks, tmp_path, monkeypatch):
     """A built scene of the panel, and a view that looks from EYE."""
-    firetwin.register()
-    bpy.ops.wm.open_mainfile(filepath=str(panel_blend))
-    settings = bpy.context.scene.firetwin
-    settings.output = str(tmp_path / "out")
     monkeypatch.setattr(navigation, "camera_from_view", lambda context: (EYE.copy(), 30.0, 36.0))
-    yield settings
-    firetwin.unregister()
+    for settings in panel_scene.opened(panel_blend):
+        settings.output = str(tmp_path / "out")
+        yield settings
 
 
 def _back(thing, frame):
@@ -204,25 +198,6 @@ def test_one_goes_to_places_names_and_moments(panel):
     assert bpy.ops.firetwin.go(text="run begins") == {"FINISHED"}  # a dated moment of the run
     assert scene.frame_current == 1
     assert bpy.ops.firetwin.go(text="nowhere at all") == {"CANCELLED"}
-
-
-def test_terms_of_tiles_may_forbid_other_gazetteers(panel, tmp_path):
-    """Find coordinates and names of the run without place names of another source."""
-    (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
-    panel.labels.file = str(tmp_path / "places.csv")
-    scene = bpy.context.scene
-    assert go_to.find_position(scene, "station 61") is not None
-    (part,) = (each for each in schema.fields(TileSettings) if each.name == "sources")
-    keys.put(panel.tiles, part, ("https://tile.googleapis.com/v1/3dtiles/root.json",))
-    assert place_names.list_labels(panel) == ()
-    assert go_to.find_position(scene, "station 61") is None
-    assert go_to.find_position(scene, "38.84 -120.55") is not None
-    assert (
-        "Google Photorealistic 3D Tiles allows no place names from another source"
-        in place_names.explain_refusal(panel)
-    )
-    keys.put(panel.tiles, part, ("https://tiles.example/tileset.json",))
-    assert place_names.explain_refusal(panel) == ""
 
 
 def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 from unittest.mock import MagicMock
 
 import bpy
-import firetwin
+import panel_scene
 import pytest
 import views
 from firetwin.blender import owned
@@ -19,10 +19,7 @@ from mathutils import Matrix, Quaternion, Vector
 @pytest.fixture
 def panel(panel_blend):
     """A built scene."""
-    firetwin.register()
-    bpy.ops.wm.open_mainfile(filepath=str(panel_blend))
-    yield bpy.context.scene.firetwin
-    firetwin.unregister()
+    yield from panel_scene.opened(panel_blend)
 
 
 def _ahead(angle):

@@ -50,7 +50,7 @@ def test_no_more_lamps_than_allowed_and_the_same_again(near, run):
     assert np.array_equal(first.heat, again.heat)
 
 
-def test_energies_are_straight_lines_between_moments(near, run, stage, sun_at):
+def test_energies_are_straight_lines_between_moments_in_every_build(near, run, stage, sun_at):
     sun_at(-20.0)
     shot = built(near, run, stage)
     things = lit()
@@ -73,12 +73,7 @@ def test_energies_are_straight_lines_between_moments(near, run, stage, sun_at):
     far = lamps.place_lamps(shot, flame_light.FAR_LAMPS, lamps.glow_share(shot))
     wanted = np.interp(shot.frames.times, far.time, far.heat.sum(axis=1)) * lamps.LIGHT
     assert total == pytest.approx(wanted, rel=1e-3)
-
-
-def test_building_twice_leaves_one_set(near, run, stage, sun_at):
-    sun_at(-20.0)
-    built(near, run, stage)
-    count = len(lit()), len(bpy.data.lights), len(bpy.data.actions)
+    count = len(things), len(bpy.data.lights), len(bpy.data.actions)
     built(near, run, stage)
     assert (len(lit()), len(bpy.data.lights), len(bpy.data.actions)) == count
 

@@ -1,7 +1,7 @@
 """The live scene in the panel: built, switched, and built again with the scene."""
 
 import bpy
-import firetwin
+import panel_scene
 import pytest
 from firetwin.scene.live import build, switch
 
@@ -10,10 +10,7 @@ from firetwin.scene.live import build, switch
 def panel(panel_blend, plain_looks, monkeypatch):
     """A built scene of the panel; its live scenes are small."""
     monkeypatch.setattr(build, "TRIANGLES", 8000)
-    firetwin.register()
-    bpy.ops.wm.open_mainfile(filepath=str(panel_blend))
-    yield bpy.context.scene.firetwin
-    firetwin.unregister()
+    yield from panel_scene.opened(panel_blend)
 
 
 def live():

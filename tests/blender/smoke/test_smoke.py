@@ -254,20 +254,13 @@ def test_eevee_slices_lie_where_the_smoke_is(shot, stage, scene):
     assert eevee.volumetric_start < nearest < nearest + 20_000.0 < eevee.volumetric_end
 
 
-def test_a_scene_of_somebody_else_keeps_its_settings(shot, scene):
+@pytest.mark.parametrize("ours", [True, False])
+def test_only_our_own_scene_gets_settings_of_smoke(shot, scene, ours):
     before = scene.cycles.volume_max_steps, scene.eevee.volumetric_end
     other = bpy.data.scenes.new("other")
-    assert smoke.build(shot, owned.stage(scene)) is not None
-    for each in (scene, other):
-        assert (each.cycles.volume_max_steps, each.eevee.volumetric_end) == before
-
-
-def test_other_scenes_keep_their_settings(shot, stage):
-    other = bpy.data.scenes.new("other")
-    before = other.cycles.volume_max_steps, other.eevee.volumetric_end
-    smoke.build(shot, stage)
+    assert smoke.build(shot, owned.adopt(scene) if ours else owned.stage(scene)) is not None
     assert (other.cycles.volume_max_steps, other.eevee.volumetric_end) == before
-    assert stage.scene.cycles.volume_max_steps != before[0]
+    assert ((scene.cycles.volume_max_steps, scene.eevee.volumetric_end) != before) is ours
 
 
 def test_a_file_moved_together_with_its_smoke_keeps_it(smoky, run, stage, tmp_path):

@@ -54,11 +54,6 @@ def test_labels_beyond_their_distance_are_gone(labelled, run, scene):
     assert not [font for font in bpy.data.fonts if font.users]  # the typeface was lent
 
 
-def test_off_by_default(settings, run, scene):
-    build.build(Shot(settings, run), scene, ("cameras", "labels"))
-    assert "Firetwin Labels" not in {thing.name for thing in bpy.data.objects}
-
-
 @pytest.mark.parametrize(("hour", "lit"), [(5, True), (21, False)])
 def test_labelled_towns_have_lights_by_night(settings, run, scene, monkeypatch, hour, lit):
     places = [

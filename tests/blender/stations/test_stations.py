@@ -147,8 +147,8 @@ def test_routes_lie_on_the_ground_as_wide_in_every_picture(stationed, run, scene
 
 
 def test_off_by_default(settings, run, scene):
-    build.build(Shot(settings, run), scene, ("cameras", "stations"))
-    assert not {"Firetwin Signs", "Firetwin Halls", "Firetwin Routes"} & {o.name for o in bpy.data.objects}
+    build.build(Shot(settings, run), scene, ("cameras", "stations", "labels"))
+    assert [thing.type for thing in bpy.data.objects] == ["CAMERA"]
 
 
 def test_eyes_alone_see_signs_and_every_pass_sees_buildings(stationed, run, scene, stage, plain_looks):

@@ -8,7 +8,6 @@ from firetwin.jobs import build as build_job
 from firetwin.jobs import worker
 from firetwin.scene import built
 from firetwin.scene.live import build as live_build
-from firetwin.scene.live import switch
 from firetwin.scene.smoke import volume_files
 from firetwin.shot.source import ShotSource
 from firetwin.ui import job, landmarks, panel_state, scene_file, time
@@ -77,15 +76,6 @@ def test_time_and_landmarks_are_those_of_the_frame(opened):
         places.append(landmark_list.pose(opened, landmarks.HEAD).place)
     assert (places[1] - places[0]).length > 100.0
     assert landmark_list.names(opened)[:2] == [landmarks.HEAD, landmarks.IGNITION]
-
-
-def test_the_live_scene_can_be_switched_and_built_again(opened, plain_looks, monkeypatch):
-    monkeypatch.setattr(live_build, "TRIANGLES", 8000)
-    assert switch.is_live(opened)
-    assert bpy.ops.firetwin.show_live() == {"FINISHED"}
-    assert not switch.is_live(opened)
-    assert bpy.ops.firetwin.live() == {"FINISHED"}
-    assert switch.is_live(opened)
 
 
 def test_opening_reads_no_run(live_file, monkeypatch):

@@ -11,7 +11,7 @@ from firetwin.blender import owned
 from firetwin.jobs import sample, worker_scene
 from firetwin.shot.settings import scene_file as file
 from firetwin.shot.source import ShotSource
-from firetwin.ui import job, quality, scene_file, working
+from firetwin.ui import build, job, quality, scene_file, working
 from firetwin.ui import time as model_time
 
 
@@ -122,6 +122,10 @@ def test_a_part_built_again_keeps_what_was_changed_by_hand_elsewhere(opened, pla
     trees.location.x += 100.0
     ground.data.materials[0].node_tree.nodes.new("ShaderNodeValue").name = "Mine"
     scene.camera.name = "My camera"
+    scene.camera.animation_data_clear()
+    scene.camera.location.z = 5000.0
+    scene.frame_end, scene.render.resolution_x = 2, 100
+    scene.view_layers["thermal"].samples = 7
     kept = [thing.session_uid for thing in (trees, ground, scene.camera)]
     opened.fire.budget, opened.light.haze = 100, 0.5
     assert opened.changed == "fire light"
@@ -133,7 +137,14 @@ def test_a_part_built_again_keeps_what_was_changed_by_hand_elsewhere(opened, pla
     ] == kept
     assert scene.objects["Firetwin Trees"].location.x == pytest.approx(100.0)
     assert "Mine" in scene.objects["Firetwin Ground"].data.materials[0].node_tree.nodes
-    assert scene.camera.name == "My camera"
+    assert (scene.camera.name, scene.camera.location.z) == ("My camera", 5000.0)
+    assert (scene.frame_end, scene.render.resolution_x) == (2, 100)
+    assert scene.view_layers["thermal"].samples == 7
+    assert working.last_messages(build.FIRETWIN_OT_build)[-1].text == "Built the light of Test"
+    bpy.ops.firetwin.build(part="forest")
+    assert scene.objects["Firetwin Trees"].session_uid != kept[0]
+    bpy.ops.firetwin.build(part="cameras")
+    assert (scene.camera.name, scene.camera.location.z) == ("My camera", pytest.approx(5000.0, abs=0.01))
 
 
 def test_quality_moves_many_settings_and_is_known_again(opened):

@@ -18,7 +18,7 @@ from firetwin.export import job as export_job
 from firetwin.farm import submission
 from firetwin.jobs import assets, convert, render, render_blend, sample
 from firetwin.jobs.tiles import bounding_boxes
-from firetwin.ui import navigation, quality, queue, smoke_volumes, stations_panel, working
+from firetwin.ui import navigation, quality, smoke_volumes, stations_panel, working
 from mathutils import Euler, Matrix
 from panel_scene import state
 
@@ -41,12 +41,8 @@ def blend(panel_blend, run_folder, tmp_path_factory):
 @pytest.fixture
 def panel(blend, plain_looks, monkeypatch):
     """A built scene of the panel, and a view that looks from EYE."""
-    firetwin.register()
-    bpy.ops.wm.open_mainfile(filepath=str(blend))
     monkeypatch.setattr(navigation, "camera_from_view", lambda context: (EYE.copy(), 30.0, 36.0))
-    yield bpy.context.scene.firetwin
-    queue.clear()
-    firetwin.unregister()
+    yield from panel_scene.opened(blend)
 
 
 def test_operators_say_what_they_do_and_when_they_can_be_used():
