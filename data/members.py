@@ -55,15 +55,15 @@ class Spread:
     def of(cls, sample: stored.Sample) -> Spread:
         """Derive rates from the arrival times; cells that the sample's fire missed take the nearest ones."""
         blocks = sample.arrival.reshape(CELLS, COARSE, CELLS, COARSE)
-        known = np.isfinite(blocks).any((1, 3))
+        burned = np.isfinite(blocks).any((1, 3))
         total = np.nansum(blocks, (1, 3)) / np.maximum(np.isfinite(blocks).sum((1, 3)), 1)
-        arrival = np.where(known, total, np.nan)
+        arrival = np.where(burned, total, np.nan)
         north, east = np.gradient(_smooth(arrival), CELL_SIZE)
         slowness = np.hypot(north, east)
-        slowness[~known | (slowness == 0.0)] = np.nan
+        slowness[~burned | (slowness == 0.0)] = np.nan
         parts = [_filled(each) for each in (np.log(slowness), east / slowness, north / slowness)]
         fuel = (sample.surface + sample.canopy).reshape(CELLS, COARSE, CELLS, COARSE).max((1, 3)) > 0.0
-        rate = np.clip(PATHS * np.exp(-parts[0]), SLOWEST, FASTEST) * fuel * np.where(known, 1.0, MISSED)
+        rate = np.clip(PATHS * np.exp(-parts[0]), SLOWEST, FASTEST) * fuel * np.where(burned, 1.0, MISSED)
         return cls(arrival, rate, np.arctan2(parts[2], parts[1]))
 
 

@@ -167,10 +167,10 @@ def at_pace(sample: stored.Sample, pace: float) -> stored.Sample:
 
 
 def _run_toml(minutes: NDArray[np.int64], pace: float = 1.0, member: int = 0) -> str:
-    known = f'name = "{NAME}"\nsynthetic = true\nevent = "king_fire"'
+    heading = f'name = "{NAME}"\nsynthetic = true\nevent = "king_fire"'
     if pace != 1.0 or member:
         which = [f"member {member:02}"] * bool(member) + [f"{pace:g} of its pace"] * (pace != 1.0)
-        known = f'name = "{", ".join([NAME, *which])}"\nsynthetic = true'
+        heading = f'name = "{", ".join([NAME, *which])}"\nsynthetic = true'
     if len(minutes) > 1 and np.ptp(np.diff(minutes)) == 0:
         times = f"interval_s = {(minutes[1] - minutes[0]) * INTERVAL:.1f}"
     else:
@@ -181,7 +181,7 @@ def _run_toml(minutes: NDArray[np.int64], pace: float = 1.0, member: int = 0) ->
 # simulated with pyretechnics and tuned so that burned areas follow the reported ones. Heat flux is the mean
 # over the {INTERVAL:.0f} s that end at each time. Temperature and wind come from scaling laws, not a flow
 # model.
-{known}
+{heading}
 start = {stored.START:%Y-%m-%dT%H:%M:%SZ}
 {times}
 mean_s = {INTERVAL:.1f}

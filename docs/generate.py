@@ -80,15 +80,15 @@ def format_meaning(key: Key, listed: bool = True) -> str:
     return key.help + (": " + "; ".join(choices) if choices else "")
 
 
-def format_keys(found: list[Field]) -> str:
+def format_keys(keys: list[Field]) -> str:
     """Format a table of keys; choices that are passes have a separate page."""
     rows = []
-    for part in found:
+    for part in keys:
         is_listed = part.key.choices is not passes.helps
         meaning = format_meaning(part.key, is_listed)
         rows.append((f"`{part.name}`", format_default(part), format_type(part), meaning))
     out = format_table(("key", "default", "value", "meaning"), rows)
-    inner = [f"\nEach table of `{p.name}`:\n\n{format_keys(list(fields(p.table)))}" for p in found if p.table]
+    inner = [f"\nEach table of `{p.name}`:\n\n{format_keys(list(fields(p.table)))}" for p in keys if p.table]
     return out + "".join(inner)
 
 
@@ -233,7 +233,7 @@ scene file, `examples/rigs.toml`, has one camera of each remaining kind. All use
 
 def describe_passes_and_cameras() -> str:
     """Describe every pass and every kind of camera."""
-    known, kinds = passes.known(), rigs.kinds()
+    all_passes, kinds = passes.known(), rigs.kinds()
     return "\n".join(
         [
             HEAD,
@@ -243,7 +243,7 @@ def describe_passes_and_cameras() -> str:
             format_table(
                 ("pass", "content"), ((f"[`{n}`](#{n})", text) for n, text in passes.helps().items())
             ),
-            *(describe_pass(each) for each in known.values()),
+            *(describe_pass(each) for each in all_passes.values()),
             "## Cameras\n",
             CAMERAS,
             *(describe_rig(name, rig) for name, rig in kinds.items()),

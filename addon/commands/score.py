@@ -68,15 +68,15 @@ def _run(arguments: argparse.Namespace) -> None:
     observed = observations.read(each for each in named if observations.is_one(each))
     if observed.heat and not (observed.perimeters or observed.detections or runs):
         raise input_error(named[0], "has detections but no perimeter; name a file with a perimeter")
-    found = scores.score(run, observed, runs[0] if runs else None, zone=zone.time_zone(run))
-    result(json.dumps(found, indent=1) if arguments.json else page.page(found))
+    comparison = scores.score(run, observed, runs[0] if runs else None, zone=zone.time_zone(run))
+    result(json.dumps(comparison, indent=1) if arguments.json else page.page(comparison))
     if arguments.report:
         from ..run.score import report
 
-        text = report.html(run, found, observed, *runs)
+        text = report.html(run, comparison, observed, *runs)
         files.write_text(arguments.report, text)
         say(f"wrote {arguments.report}")
-    if not runs and (none := used.nothing(found["uses"])):
+    if not runs and (none := used.nothing(comparison["uses"])):
         raise Error(none)
 
 

@@ -82,7 +82,7 @@ def _files(folder: Path, facts: about.About, samples: Sequence[Truth]) -> Iterat
                 yield Finding("files", f"{path}: {state}; {RESUME.format(path=meta, folder=folder)}")
 
 
-def _hashes(folder: Path, known: set[str]) -> Iterator[Finding]:
+def _hashes(folder: Path, of_samples: set[str]) -> Iterator[Finding]:
     """Compare the files with SHA256SUMS, except missing ones of samples, which `_files` reports."""
     again = f"if the change is wanted, compute the hashes again: firetwin dataset formats {folder}"
     if not (folder / sums.NAME).is_file():
@@ -91,7 +91,7 @@ def _hashes(folder: Path, known: set[str]) -> Iterator[Finding]:
         )
         return
     listed, present = sums.read(folder), set(sums.paths(folder))
-    for path in sorted(set(listed) - present - known):
+    for path in sorted(set(listed) - present - of_samples):
         yield Finding("hashes", f"{path}: is in {sums.NAME} and missing; restore it, or {again}")
     for path in sorted(present - set(listed)):
         yield Finding("hashes", f"{path}: is not in {sums.NAME}; remove it, or {again}")

@@ -63,7 +63,7 @@ def write(folder: Path, about: About, hashes: Mapping[str, str], licences: Mappi
 
 def document(folder: Path, about: About, table_hash: str, licences: Mapping[str, str]) -> dict[str, Any]:
     """Make the metadata of a data set."""
-    found = sorted(
+    named_licences = sorted(
         {licence for licence in (about.licence, *licences.values()) if licence and " " not in licence}
     )
     return {
@@ -76,7 +76,7 @@ def document(folder: Path, about: About, table_hash: str, licences: Mapping[str,
         "rai:dataBiases": LIMITS,
         "rai:dataCollection": "Rendered by Firetwin from draws with a seed for each value",
         "rai:personalSensitiveInformation": "none",
-        **({"license": [_address(name) for name in found]} if found else {}),
+        **({"license": [_address(name) for name in named_licences]} if named_licences else {}),
         "distribution": [_table(table_hash), *_file_sets(folder)],
         "recordSet": [_records()],
     }

@@ -174,22 +174,33 @@ DEFAULTS: Mapping[str, Distribution] = MappingProxyType(
 )
 
 
-def fault(found: Distribution, value: Value) -> str | None:
+def fault(distribution: Distribution, value: Value) -> str | None:
     """Return why a distribution does not suit a value, as words that follow its name, or None."""
-    if isinstance(found, Choice):
-        if not found.values:
+    if isinstance(distribution, Choice):
+        if not distribution.values:
             return "needs at least one of its values"
-        if found.weights and (len(found.weights) != len(found.values) or sum(found.weights) <= 0.0):
+        if distribution.weights and (
+            len(distribution.weights) != len(distribution.values) or sum(distribution.weights) <= 0.0
+        ):
             return "needs as many weights as values, with a positive sum"
-        if any(weight < 0.0 for weight in found.weights):
+        if any(weight < 0.0 for weight in distribution.weights):
             return "has a negative weight"
-    if isinstance(found, Uniform | LogUniform | LogNormal) and not found.low <= found.high:
-        return f"has low above high ({found.low:g}, {found.high:g}); exchange them"
-    if isinstance(found, LogUniform | LogNormal) and found.low <= 0.0:
+    if (
+        isinstance(distribution, Uniform | LogUniform | LogNormal)
+        and not distribution.low <= distribution.high
+    ):
+        return f"has low above high ({distribution.low:g}, {distribution.high:g}); exchange them"
+    if isinstance(distribution, LogUniform | LogNormal) and distribution.low <= 0.0:
         return "needs a low above 0, as it is logarithmic"
-    if isinstance(found, LogNormal) and (found.factor <= 1.0 or not found.low < found.median < found.high):
+    if isinstance(distribution, LogNormal) and (
+        distribution.factor <= 1.0 or not distribution.low < distribution.median < distribution.high
+    ):
         return "needs a factor above 1, and a median between low and high"
-    ends = found.values if isinstance(found, Choice) else (found.quantile(0.0), found.quantile(1.0))
+    ends = (
+        distribution.values
+        if isinstance(distribution, Choice)
+        else (distribution.quantile(0.0), distribution.quantile(1.0))
+    )
     if min(ends) < value.low or max(ends) > value.high:
         unit = "" if value.unit == "1" else f" {value.unit}"
         return f"must be from {value.low:g} to {value.high:g}{unit}, not {min(ends):g} to {max(ends):g}"

@@ -12,7 +12,7 @@ from .hashing import integer
 
 
 @dataclass(frozen=True)
-class Camera:
+class DrawnCamera:
     """Camera of a sample; poses are in the run's local frame (`run.frame.local_frame`).
 
     Attributes
@@ -104,7 +104,7 @@ class Draw:
     time: float
     since_ignition: float
     utc: datetime
-    camera: Camera
+    camera: DrawnCamera
     target: tuple[float, float, float]
     distance: float
     sun_elevation: float

@@ -77,17 +77,19 @@ def write(folder: Path, only: str, out: Path) -> Iterator[Path]:
         yield path
 
 
-def _chosen(known: list[int], only: str) -> list[int]:
+def _chosen(finished: list[int], only: str) -> list[int]:
     """Choose samples by a list, or evenly spaced ones without a list."""
     if not only.strip():
-        return [known[step] for step in np.linspace(0, len(known) - 1, min(MOST, len(known))).astype(int)]
+        return [
+            finished[step] for step in np.linspace(0, len(finished) - 1, min(MOST, len(finished))).astype(int)
+        ]
     try:
-        wanted = FrameList(only).frames(known[-1])
+        wanted = FrameList(only).frames(finished[-1])
     except ValueError:
         raise UsageError(
-            f"--only: samples are numbered 1 to {known[-1]}; write it like 137 or 1-20"
+            f"--only: samples are numbered 1 to {finished[-1]}; write it like 137 or 1-20"
         ) from None
-    if missing := sorted({*wanted} - {*known}):
+    if missing := sorted({*wanted} - {*finished}):
         raise UsageError(f"--only: sample {missing[0]} is not finished; make it first")
     return wanted
 

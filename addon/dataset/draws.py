@@ -18,7 +18,7 @@ from ..run import times
 from ..shot.cameras import rotation
 from . import placement, sites, splits
 from .distributions import VALUES, Distribution
-from .draw import Camera, Draw
+from .draw import Draw, DrawnCamera
 from .hashing import share
 from .placement import Pose, Rejected
 from .plan import POSITIVE, Plan
@@ -197,10 +197,12 @@ def _share_below(distribution: Distribution, limit: float) -> float:
     return low
 
 
-def _camera(scene: RunScene, kind: str, site: str, pose: Pose, field_of_view: float) -> Camera:
+def _camera(scene: RunScene, kind: str, site: str, pose: Pose, field_of_view: float) -> DrawnCamera:
     latitude, longitude, height = (float(part[0]) for part in scene.ground.frame.reverse(pose.position[None]))
     angles = rotation.angles(scene.ground.frame, pose.position, pose.rotation)
-    return Camera(kind, site, _triple(pose.position), latitude, longitude, height, *angles, field_of_view)
+    return DrawnCamera(
+        kind, site, _triple(pose.position), latitude, longitude, height, *angles, field_of_view
+    )
 
 
 def _sun(stratum: Stratum, heading: float, value: _Values) -> tuple[float, float]:

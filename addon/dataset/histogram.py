@@ -44,7 +44,7 @@ class Bars:
 
 def numeric(groups: Values) -> Bars:
     """Count finite numbers in 20 bins of equal width, or of equal ratio if they are skewed."""
-    values = {name: _finite(found) for name, found in groups.items()}
+    values = {name: _finite(group) for name, group in groups.items()}
     all_values = np.concatenate([*values.values(), np.empty(0)])
     low, high = (float(all_values.min()), float(all_values.max())) if all_values.size else (0.0, 1.0)
     is_log = _is_log(all_values) if all_values.size else False
@@ -53,7 +53,7 @@ def numeric(groups: Values) -> Bars:
     else:
         edges = (np.geomspace if is_log else np.linspace)(low, high, _BINS + 1)
         edges[[0, -1]] = low, high
-    counts = {name: np.histogram(found, edges)[0].tolist() for name, found in values.items()}
+    counts = {name: np.histogram(group, edges)[0].tolist() for name, group in values.items()}
     words = _numbers(edges)
     names = [f"{a} to {b}" for a, b in itertools.pairwise(words)]
     ticks = [(at / _BINS, words[at]) for at in (0, _BINS // 2, _BINS)]
@@ -62,13 +62,13 @@ def numeric(groups: Values) -> Bars:
 
 def categorical(groups: Words) -> Bars:
     """Count words, most frequent first; the rarest are together if there are more than 12."""
-    totals = Counter(word for found in groups.values() for word in found)
+    totals = Counter(word for group in groups.values() for word in group)
     words = [word for word, _ in sorted(totals.items(), key=lambda pair: (-pair[1], pair[0]))]
     rest = words[_MOST_WORDS:]
     shown = [*words[:_MOST_WORDS], *(["others"] if rest else [])]
     counts = {}
-    for name, found in groups.items():
-        number = Counter("others" if word in rest else word for word in found)
+    for name, group in groups.items():
+        number = Counter("others" if word in rest else word for word in group)
         counts[name] = [number[word] for word in shown]
     ticks = [((at + 0.5) / len(shown), word) for at, word in enumerate(shown)]
     return Bars(shown, ticks, counts)
@@ -102,17 +102,17 @@ def _stack(
 ) -> list[str]:
     """Draw the parts of one bar, from the bottom."""
     x, step = place
-    found, below = [], 0
+    rectangles, below = [], 0
     for group, colour in colours.items():
         if number := bars.counts.get(group, [0] * len(bars.names))[at]:
             top, bottom = _y(below + number, peak), _y(below, peak)
-            found.append(
+            rectangles.append(
                 f'<rect x="{x + 0.5:.1f}" y="{top:.1f}" width="{max(step - 1.0, 1.0):.1f}" '
                 f'height="{bottom - top:.1f}" fill="{colour}"><title>{quote(name)}: {number:,} '
                 f"({quote(group)})</title></rect>"
             )
             below += number
-    return found
+    return rectangles
 
 
 def _is_log(values: NDArray[np.float64]) -> bool:

@@ -95,7 +95,7 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
         _annotation(number, each, rendered, place, contrast) for number, each in enumerate(large + small, 1)
     ]
     since = None if place.ignition is None else rendered.model_time - place.ignition
-    made = Truth(
+    sample_truth = Truth(
         index=index,
         camera=camera_pose(rendered, place),
         utc=rendered.time.isoformat(),
@@ -108,7 +108,7 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
         horizon=_polylines(survey.skyline(rendered.depth, rendered.rgb, CONTRAST)),
         labelling=thresholds() | {"smoke_without_contrast_pixels": int((smoke & ~seen).sum())},
     )
-    return made, _paint(large, rendered.depth.shape)
+    return sample_truth, _paint(large, rendered.depth.shape)
 
 
 def thresholds() -> dict[str, Any]:
@@ -201,7 +201,7 @@ def _annotation(
     """Measure an instance."""
     row, column = instance.row, instance.column
     shown = instance.place(instance.visible)
-    made = Annotation(
+    annotation = Annotation(
         id=number,
         category=instance.category,
         box=_box(*shown),
@@ -215,46 +215,50 @@ def _annotation(
         seconds_since_ignition=None if place.ignition is None else rendered.model_time - place.ignition,
     )
     if instance.category == truth.SMOKE:
-        return _measure_smoke(made, instance, rendered, place, contrast)
-    return _measure_fire(made, instance, rendered, place)
+        return _measure_smoke(annotation, instance, rendered, place, contrast)
+    return _measure_fire(annotation, instance, rendered, place)
 
 
 def _measure_smoke(
-    made: Annotation, instance: _Instance, rendered: Rendered, place: Place, contrast: Array
+    annotation: Annotation, instance: _Instance, rendered: Rendered, place: Place, contrast: Array
 ) -> Annotation:
     """Add opacity boxes, contrast, distance and top of a plume."""
     row, column = instance.row, instance.column
     alpha, away = rendered.alpha[row, column], rendered.smoke_range[row, column]
     boxes = {f"{least:g}": _box(*instance.place(alpha >= least)) for least in ALPHAS if alpha.max() >= least}
-    known = np.isfinite(away)
-    made = replace(made, boxes_by_alpha=boxes, contrast=float(contrast[row, column].mean()))
-    if not known.any():
-        return made
-    points = survey.at_range(rendered.camera, *instance.place(known), away[known])
+    has_range = np.isfinite(away)
+    annotation = replace(annotation, boxes_by_alpha=boxes, contrast=float(contrast[row, column].mean()))
+    if not has_range.any():
+        return annotation
+    points = survey.at_range(rendered.camera, *instance.place(has_range), away[has_range])
     top = points[[np.argmax(place.height_above_sea(points))]]
     return replace(
-        made,
-        distance_m=float(np.median(away[known])),
-        nearest_m=float(away[known].min()),
+        annotation,
+        distance_m=float(np.median(away[has_range])),
+        nearest_m=float(away[has_range].min()),
         top_above_ground_m=float(place.height_above_ground(top)[0]),
         top_above_sea_m=float(place.height_above_sea(top)[0]),
     )
 
 
-def _measure_fire(made: Annotation, instance: _Instance, rendered: Rendered, place: Place) -> Annotation:
+def _measure_fire(
+    annotation: Annotation, instance: _Instance, rendered: Rendered, place: Place
+) -> Annotation:
     """Add distance and ground area of flames, from the burning ground behind their pixels."""
     row, column = instance.row, instance.column
     away, depth = rendered.range[row, column], rendered.depth[row, column]
-    known = np.isfinite(away)
-    points = survey.at_range(rendered.camera, *instance.place(known), away[known])
-    known[known] = place.burns(points[:, 0], points[:, 1])
-    if not known.any():
-        return made
+    has_range = np.isfinite(away)
+    points = survey.at_range(rendered.camera, *instance.place(has_range), away[has_range])
+    has_range[has_range] = place.burns(points[:, 0], points[:, 1])
+    if not has_range.any():
+        return annotation
     return replace(
-        made,
-        distance_m=float(np.median(away[known])),
-        nearest_m=float(away[known].min()),
-        ground_area_m2=survey.ground_area(place, rendered.camera, *instance.place(known), depth[known]),
+        annotation,
+        distance_m=float(np.median(away[has_range])),
+        nearest_m=float(away[has_range].min()),
+        ground_area_m2=survey.ground_area(
+            place, rendered.camera, *instance.place(has_range), depth[has_range]
+        ),
     )
 
 

@@ -67,39 +67,39 @@ def parse(text: str, path: Path) -> Plan:
     values = loads(path, text)
     reader = TableReader(path, text, "plan of a data set")
     drawn = reader.expect(dict, values.pop("draws", {}), ("draws",))
-    found: _File = reader.table(_File, values, ())
-    if invalid := validate(found):
+    content: _File = reader.table(_File, values, ())
+    if invalid := validate(content):
         raise reader.error(*invalid)
-    for where, reason in _faults(found):
+    for where, reason in _faults(content):
         raise reader.error(where, reason)
     draws = {name: _distribution(reader, name, value) for name, value in drawn.items()}
     return Plan(
         path=path,
-        runs=tuple(run for each in found.runs for run in _runs(each)),
-        cameras=dataclasses.asdict(found.cameras),
-        negatives=dataclasses.asdict(found.negatives),
-        splits=dataclasses.asdict(found.splits),
+        runs=tuple(run for each in content.runs for run in _runs(each)),
+        cameras=dataclasses.asdict(content.cameras),
+        negatives=dataclasses.asdict(content.negatives),
+        splits=dataclasses.asdict(content.splits),
         draws={**DEFAULTS, **draws},
-        **{each.name: getattr(found, each.name) for each in dataclasses.fields(PlanKeys)},
+        **{each.name: getattr(content, each.name) for each in dataclasses.fields(PlanKeys)},
     )
 
 
-def _runs(found: _Run) -> Iterator[PlanRun]:
+def _runs(entry: _Run) -> Iterator[PlanRun]:
     """Yield the runs of an entry: one, or one for each member of an ensemble, which share its weight."""
-    assert found.run is not None  # checked by `_faults`
-    keys = {each.name: getattr(found, each.name) for each in dataclasses.fields(RunKeys)}
-    plain = PlanRun(**keys | {"name": _name(found), "run": found.run})
-    if not found.members:
+    assert entry.run is not None  # checked by `_faults`
+    keys = {each.name: getattr(entry, each.name) for each in dataclasses.fields(RunKeys)}
+    plain = PlanRun(**keys | {"name": _name(entry), "run": entry.run})
+    if not entry.members:
         yield plain
         return
-    chosen = members.chosen(found.run, found.members)
-    for member, name in zip(chosen, _names(found), strict=True):
+    chosen = members.chosen(entry.run, entry.members)
+    for member, name in zip(chosen, _names(entry), strict=True):
         yield dataclasses.replace(
             plain,
-            run=members.folder(found.run, member),
+            run=members.folder(entry.run, member),
             name=name,
             weight=plain.weight / len(chosen),
-            ensemble=found.run,
+            ensemble=entry.run,
             member=member,
         )
 
@@ -115,11 +115,11 @@ def _names(found: _Run) -> list[str]:
     return [f"{_name(found)}-{member}" for member in members.chosen(found.run, found.members)]
 
 
-def _faults(found: _File) -> Iterator[tuple[Where, str]]:
+def _faults(content: _File) -> Iterator[tuple[Where, str]]:
     """Yield place and message of each error across keys."""
-    if not found.runs:
+    if not content.runs:
         yield ("runs",), f'there are no [[runs]]; add one with place = "NAME" and run = "FOLDER"; {_EXAMPLE}'
-    for number, run in enumerate(found.runs):
+    for number, run in enumerate(content.runs):
         here: Where = ("runs", number)
         if not run.place.strip():
             yield here, "runs.place is missing; name the place, as splits keep places apart"
@@ -131,17 +131,17 @@ def _faults(found: _File) -> Iterator[tuple[Where, str]]:
             yield (*here, "members" if run.members else "run"), f"runs.run: {reason}"
         elif fault := next(filter(None, map(file_name, _names(run))), None):
             yield (*here, "name" if run.name else "run"), f"runs.name {fault}; set another name"
-    named = [(number, name) for number, run in enumerate(found.runs) for name in _names(run)]
+    named = [(number, name) for number, run in enumerate(content.runs) for name in _names(run)]
     if (second := twice([name for _, name in named])) is not None:
         number, name = named[second]
         yield ("runs", number), f'two runs are called "{name}"; give one another name'
     splits: dict[str, str] = {}
-    for number, run in enumerate(found.runs):
-        group = run.place if found.split_by != "run" else _name(run)
+    for number, run in enumerate(content.runs):
+        group = run.place if content.split_by != "run" else _name(run)
         if splits.setdefault(group, run.split) != run.split:
             yield ("runs", number, "split"), f'"{group}" has two splits; give all of its runs the same split'
-    for section in ("cameras", "splits") + (("negatives",) if found.positives < 1.0 else ()):
-        if not any(dataclasses.asdict(getattr(found, section)).values()):
+    for section in ("cameras", "splits") + (("negatives",) if content.positives < 1.0 else ()):
+        if not any(dataclasses.asdict(getattr(content, section)).values()):
             yield (section,), f"all shares of [{section}] are 0; give one a share"
 
 

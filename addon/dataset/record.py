@@ -28,9 +28,9 @@ def describe(plan: Plan, cache: Path) -> dict[str, Any]:
     """
     from ..run import readers
 
-    found = asdict(plan) | {"draws": {name: _drawn(each) for name, each in plan.draws.items()}}
-    del found["path"]
-    for run, planned in zip(found["runs"], plan.runs, strict=True):
+    values = asdict(plan) | {"draws": {name: _drawn(each) for name, each in plan.draws.items()}}
+    del values["path"]
+    for run, planned in zip(values["runs"], plan.runs, strict=True):
         settings = settings_of(planned)
         hashes = content.inputs(readers.open(settings.run), cache)
         run["sha256"] = content.fingerprint({"run": hashes})
@@ -38,14 +38,14 @@ def describe(plan: Plan, cache: Path) -> dict[str, Any]:
         del run["run"], run["ensemble"]
         if not run["member"]:
             del run["member"]
-    return {"format": _FORMAT, "versions": fingerprint.versions(), "plan": json.loads(json.dumps(found))}
+    return {"format": _FORMAT, "versions": fingerprint.versions(), "plan": json.loads(json.dumps(values))}
 
 
 def _drawn(distribution: Any) -> dict[str, Any]:
     return {"kind": type(distribution).__name__} | asdict(distribution)
 
 
-def write(out: Path, made: dict[str, Any]) -> None:
+def write(out: Path, record: dict[str, Any]) -> None:
     """Write the record of a data set, or check that its folder has the same one.
 
     Raises
@@ -55,11 +55,11 @@ def write(out: Path, made: dict[str, Any]) -> None:
     """
     path = out / NAME
     if not path.exists():
-        files.write_text(path, json.dumps(made, indent=1) + "\n")
+        files.write_text(path, json.dumps(record, indent=1) + "\n")
         return
-    known = read(out)
-    if known != made:
-        changed = ", ".join(_changes(known, made)) or "format"
+    former = read(out)
+    if former != record:
+        changed = ", ".join(_changes(former, record)) or "format"
         reason = f"describes another data set (changed: {changed}); choose another folder for --out"
         raise input_error(path, reason)
 
@@ -79,16 +79,16 @@ def read(out: Path) -> dict[str, Any]:
         return json.loads(path.read_text(encoding="utf-8"))
 
 
-def _changes(known: dict[str, Any], made: dict[str, Any]) -> list[str]:
+def _changes(former: dict[str, Any], record: dict[str, Any]) -> list[str]:
     """List the names of changed values."""
-    before, after = known.get("plan", {}), made["plan"]
+    before, after = former.get("plan", {}), record["plan"]
     names = [name for name in after if before.get(name) != after[name] and name != "draws"]
     drawn = [
         f"draws.{name}" for name, each in after["draws"].items() if before.get("draws", {}).get(name) != each
     ]
     versions = [
         f"version of {name}"
-        for name, each in made["versions"].items()
-        if known.get("versions", {}).get(name) != each
+        for name, each in record["versions"].items()
+        if former.get("versions", {}).get(name) != each
     ]
     return [*names, *drawn, *versions]

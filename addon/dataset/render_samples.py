@@ -20,7 +20,7 @@ from . import air, places
 from .draw import Draw
 from .places import Visit
 from .plan import Plan
-from .rendered import Camera, Rendered
+from .rendered import Rendered, SampleCamera
 
 if TYPE_CHECKING:
     from ..blender.owned import Stage
@@ -143,13 +143,13 @@ class _VisitScene:
         return {"processor_seconds": {name: round(value, 2) for name, value in parts.items()}}
 
 
-def _camera(shot: Shot) -> Camera:
+def _camera(shot: Shot) -> SampleCamera:
     """Describe the camera of a sample's shot."""
     (view,) = shot.paths
     width, height = shot.settings.render.resolution
     to_world = np.eye(4)
     to_world[:3, :3], to_world[:3, 3] = view.rotation[0], view.position[0]
-    return Camera(
+    return SampleCamera(
         to_world=to_world,
         fx=0.5 * width / view.half[0],
         fy=0.5 * height / view.half[1],

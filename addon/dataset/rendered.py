@@ -17,7 +17,7 @@ Map = NDArray[np.float32]
 
 
 @dataclass(frozen=True)
-class Camera:
+class SampleCamera:
     """The camera of a sample; it has no lens distortion.
 
     Attributes
@@ -98,7 +98,7 @@ class Rendered:
     fire: Map
     twin_fire: Map
     kelvin: Map
-    camera: Camera
+    camera: SampleCamera
     time: datetime
     model_time: float
     risen: float = 0.0

@@ -66,16 +66,18 @@ class SampleEye(Eye):
 
     def _march_flames(self, at: Array, marched: Array) -> Array:
         """March flames without smoke, where the march of both (h, w, taps, 8) met flames or opaque smoke."""
-        found = np.zeros_like(marched)
-        found[..., 3::4] = 1.0
+        clear_march = np.zeros_like(marched)
+        clear_march[..., 3::4] = 1.0
         if self.flames is None:
-            return found
+            return clear_march
         met = (marched[..., 4:7] != 0.0).any(axis=-1) | (marched[..., 7] < _OPAQUE)
         chosen = _around(met.any(axis=-1))
         if chosen.any():
             rays = self.rays
-            found[chosen] = self._march([], rays.origins, rays.directions[chosen], at[chosen], parts=True)
-        return found
+            clear_march[chosen] = self._march(
+                [], rays.origins, rays.directions[chosen], at[chosen], parts=True
+            )
+        return clear_march
 
     def _compose(self, rendered: composite.Surfaces, at: Array, marched: Array) -> composite.Layers:
         white = 2.0**-self.stage.scene.view_settings.exposure
@@ -89,13 +91,13 @@ class SampleEye(Eye):
 
     def smoke_range(self, clear: Array) -> Array:
         """Measure the distance (h, w) at which smoke reaches half of its opacity, m; inf without smoke."""
-        found = np.full(self.shape, np.inf, np.float32)
+        ranges = np.full(self.shape, np.inf, np.float32)
         if not self.smoke:
-            return found
+            return ranges
         row, column = _densest(clear)
         seen = clear[row, column] < 1.0 - _SEEN
         if not seen.any():
-            return found
+            return ranges
         row, column = row[seen], column[seen]
         origins, directions = self.rays.origins, self.rays.directions[row, column]
         ends = np.minimum(self.distance[row, column], _FARTHEST)
@@ -110,8 +112,8 @@ class SampleEye(Eye):
         away = at[rows, before] + part * (at[rows, after] - at[rows, before])
         coarse[seen] = np.where(through[:, -1] < 1.0 - 0.5 * _SEEN, away, np.inf)
         height, width = self.shape
-        found = np.repeat(np.repeat(coarse, _SPARSE, axis=0), _SPARSE, axis=1)[:height, :width]
-        return np.where(clear < 1.0 - _SEEN, found, np.inf).astype(np.float32)
+        ranges = np.repeat(np.repeat(coarse, _SPARSE, axis=0), _SPARSE, axis=1)[:height, :width]
+        return np.where(clear < 1.0 - _SEEN, ranges, np.inf).astype(np.float32)
 
 
 def _densest(clear: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -70,7 +70,7 @@ def in_blender(
 def _source(scene: RunScene, planned: PlanRun, out: Path) -> dict[str, Any]:
     """Describe the sources of a visit's samples for the metadata."""
     hashes = content.inputs(scene.run, out / produce.WORK)
-    found: dict[str, Any] = {
+    sources: dict[str, Any] = {
         "run": {"name": scene.run.name, "sha256": content.fingerprint({"run": hashes})},
         "versions": fingerprint.versions(),
         "device": scene.settings.render.device,
@@ -78,5 +78,5 @@ def _source(scene: RunScene, planned: PlanRun, out: Path) -> dict[str, Any]:
         licences.CREDITS: list(picture_credits.of_settings(scene.settings).data),
     }
     if imagery.has_imagery(scene.settings):
-        found[licences.LICENCES][f"imagery of {planned.name}"] = planned.imagery_license
-    return found
+        sources[licences.LICENCES][f"imagery of {planned.name}"] = planned.imagery_license
+    return sources

@@ -34,7 +34,7 @@ def towers(plan: Plan, name: str, scene: RunScene) -> list[Tower]:
     in each equal part of it. Their bearings are random. In a forest the mast stands out above the trees.
     """
     middle = scene.burned.mean(axis=0) if len(scene.burned) else np.zeros(3)
-    found = []
+    placed = []
     for site in range(plan.sites):
         label = f"tower {name} {site}"
 
@@ -52,5 +52,5 @@ def towers(plan: Plan, name: str, scene: RunScene) -> list[Tower]:
         trees = np.where(np.any(around, axis=0), TREE, 0.0)
         best = int(np.argmax(up - trees))
         mast = plan.draws["mast"].quantile(value("mast")) + trees[best]
-        found.append(Tower(f"tower-{site + 1}", np.array([east[best], north[best], up[best] + mast])))
-    return found
+        placed.append(Tower(f"tower-{site + 1}", np.array([east[best], north[best], up[best] + mast])))
+    return placed

@@ -61,7 +61,7 @@ def assign(
     """
     total, all_shares = sum(weights.values()), sum(wanted.values())
     left = {split: part / all_shares * total for split, part in wanted.items() if part > 0.0}
-    found = dict(fixed)
+    split_of = dict(fixed)
     for group, split in fixed.items():
         left[split] = left.get(split, 0.0) - weights[group]
     open_groups = sorted(
@@ -69,12 +69,12 @@ def assign(
         key=lambda group: (-weights[group], share(seed, 0, 0, f"split {group}")),
     )
     for number, group in enumerate(open_groups):
-        empty = [split for split in left if wanted.get(split, 0.0) > 0.0 and split not in found.values()]
+        empty = [split for split in left if wanted.get(split, 0.0) > 0.0 and split not in split_of.values()]
         choices = empty if empty and len(empty) >= len(open_groups) - number else list(left)
         best = max(choices, key=lambda split: left[split])
-        found[group] = best
+        split_of[group] = best
         left[best] -= weights[group]
-    return found
+    return split_of
 
 
 def _choose(plan: Plan) -> str:
@@ -91,14 +91,14 @@ def _group(run: PlanRun, by: str) -> str:
 
 def _groups(plan: Plan, by: str) -> dict[str, float]:
     """Return the weight of each group."""
-    found: dict[str, float] = {}
+    weights: dict[str, float] = {}
     for run in plan.runs:
         if by == "camera":
-            found |= {f"{run.name}/{site}": run.weight * part for site, part in _sites(plan).items()}
+            weights |= {f"{run.name}/{site}": run.weight * part for site, part in _sites(plan).items()}
         else:
             group = _group(run, by)
-            found[group] = found.get(group, 0.0) + run.weight
-    return found
+            weights[group] = weights.get(group, 0.0) + run.weight
+    return weights
 
 
 def _sites(plan: Plan) -> dict[str, float]:

@@ -16,7 +16,7 @@ from ..shot import georeference
 from ..shot.georeference import Georeference
 from ..shot.shot import Shot
 from ..shot.terrain.terrain import UNKNOWN, Terrain, box
-from .rendered import Camera
+from .rendered import SampleCamera
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -118,27 +118,29 @@ def _front(ground: Terrain, time: float) -> tuple[Line, ...]:
     return tuple(fronts.rings(*ground.places(rows, columns), after))
 
 
-def rays(camera: Camera, row: NDArray, column: NDArray) -> Array:
+def rays(camera: SampleCamera, row: NDArray, column: NDArray) -> Array:
     """Compute directions (n, 3) through the centres of pixels (n,), of length 1 along the camera's axis."""
     x = (column + 0.5 - camera.cx) / camera.fx
     y = (camera.cy - row - 0.5) / camera.fy
     return np.column_stack([x, y, np.full(len(x), -1.0)]) @ camera.to_world[:3, :3].T
 
 
-def at_range(camera: Camera, row: NDArray, column: NDArray, away: NDArray) -> Array:
+def at_range(camera: SampleCamera, row: NDArray, column: NDArray, away: NDArray) -> Array:
     """Compute the local points (n, 3) at distances (n,), m, along the rays of pixels (n,)."""
     ahead = rays(camera, row, column)
     return camera.to_world[:3, 3] + ahead * (away / np.linalg.norm(ahead, axis=1))[:, None]
 
 
-def project(camera: Camera, points: Array) -> tuple[Array, Array, Array]:
+def project(camera: SampleCamera, points: Array) -> tuple[Array, Array, Array]:
     """Project local points (n, 3): u, v in pixels and planar depth, m; u and v are NaN behind the camera."""
     x, y, z = ((points - camera.to_world[:3, 3]) @ camera.to_world[:3, :3]).T
     depth = np.where(-z > _NEAR, -z, np.nan)
     return camera.cx + camera.fx * x / depth, camera.cy - camera.fy * y / depth, -z
 
 
-def ground_area(place: Place, camera: Camera, row: NDArray, column: NDArray, depth: NDArray) -> float | None:
+def ground_area(
+    place: Place, camera: SampleCamera, row: NDArray, column: NDArray, depth: NDArray
+) -> float | None:
     """Compute the area of the ground that pixels (n,) of a planar depth (n,), m, cover, in the map plane, m2.
 
     A pixel covers depth^2 / (fx fy) of a plane across the camera's axis, and depth^2 / (fx fy |n r|) of the
@@ -164,16 +166,16 @@ def ground_area(place: Place, camera: Camera, row: NDArray, column: NDArray, dep
     return float(np.sum(depth[seen] ** 2 / facing[seen]) / (camera.fx * camera.fy))
 
 
-def front_in_picture(place: Place, camera: Camera) -> list[Array]:
+def front_in_picture(place: Place, camera: SampleCamera) -> list[Array]:
     """Project the front: visible polylines (n, 2), pixels. Terrain hides it, trees and smoke do not."""
-    found = []
+    polylines = []
     for line in place.front:
         for part in _sampled(place, camera, line):
             u, v, _ = project(camera, part)
             inside = (u >= 0.0) & (u <= camera.width) & (v >= 0.0) & (v <= camera.height)
             inside[inside] = _is_in_sight(place, camera, part[inside])
-            found += [_simplified(np.column_stack([u, v])[run]) for run in _true_runs(inside)]
-    return found
+            polylines += [_simplified(np.column_stack([u, v])[run]) for run in _true_runs(inside)]
+    return polylines
 
 
 def skyline(depth: NDArray, picture: NDArray, contrast: float) -> list[Array]:
@@ -207,7 +209,7 @@ def _edge_contrast(picture: NDArray, first: NDArray) -> Array:
     return contrast
 
 
-def _sampled(place: Place, camera: Camera, line: Line) -> list[Array]:
+def _sampled(place: Place, camera: SampleCamera, line: Line) -> list[Array]:
     """Return parts (n, 3) of a line near the picture on the ground, with points a few pixels apart."""
     corners = place.georeference.frame.forward(line[:, 1], line[:, 0], np.zeros(len(line)))
     corners[:, 2] = place.ground(corners[:, 0], corners[:, 1])
@@ -222,7 +224,7 @@ def _sampled(place: Place, camera: Camera, line: Line) -> list[Array]:
     return parts
 
 
-def _divided(place: Place, camera: Camera, corners: Array) -> Array:
+def _divided(place: Place, camera: SampleCamera, corners: Array) -> Array:
     """Divide a line into steps of a few pixels at their nearest end, and place it on the ground."""
     lengths = np.hypot(*np.diff(corners[:, :2], axis=0).T)
     away = np.linalg.norm(corners - camera.to_world[:3, 3], axis=1)
@@ -237,7 +239,7 @@ def _divided(place: Place, camera: Camera, corners: Array) -> Array:
     return np.column_stack([x, y, place.ground(x, y)])
 
 
-def _is_in_sight(place: Place, camera: Camera, points: Array) -> Mask:
+def _is_in_sight(place: Place, camera: SampleCamera, points: Array) -> Mask:
     """Find the points (n, 3) on the ground that no terrain hides from the camera."""
     eye = camera.to_world[:3, 3]
     share = (np.arange(_SIGHTS) + 0.5) / _SIGHTS

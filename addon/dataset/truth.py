@@ -278,13 +278,13 @@ def indices(folder: Path) -> Iterator[int]:
 
 def from_json(content: Mapping[str, Any]) -> Truth:
     """Make a truth from the content of its file; unknown keys are ignored."""
-    known = _known(Truth, content)
+    values = _known(Truth, content)
     for name in ("annotations", "below_size"):
-        known[name] = tuple(_annotation(each) for each in content.get(name, ()))
+        values[name] = tuple(_annotation(each) for each in content.get(name, ()))
     for name in ("front", "horizon"):
-        known[name] = [[(x, y) for x, y in line] for line in content.get(name, ())]
-    known["camera"] = CameraPose(**_known(CameraPose, content["camera"]))
-    return Truth(**known)
+        values[name] = [[(x, y) for x, y in line] for line in content.get(name, ())]
+    values["camera"] = CameraPose(**_known(CameraPose, content["camera"]))
+    return Truth(**values)
 
 
 def _annotation(content: Mapping[str, Any]) -> Annotation:

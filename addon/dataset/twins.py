@@ -53,17 +53,19 @@ def grey(path: Path) -> NDArray[np.float32]:
 
 def find(prints: Sequence[Fingerprint]) -> Iterator[tuple[Fingerprint, Fingerprint]]:
     """Yield pairs of near copies that are in different splits."""
-    found = [each for each in prints if not each.is_plain]
-    if not found:
+    structured = [each for each in prints if not each.is_plain]
+    if not structured:
         return
-    values = np.stack([each.grey for each in found])
-    signs = np.where(np.diff(values, axis=2) > 0.0, np.float32(1.0), np.float32(-1.0)).reshape(len(found), -1)
-    splits = np.array([each.split for each in found])
-    for first in range(0, len(found), _ROWS):
+    values = np.stack([each.grey for each in structured])
+    signs = np.where(np.diff(values, axis=2) > 0.0, np.float32(1.0), np.float32(-1.0)).reshape(
+        len(structured), -1
+    )
+    splits = np.array([each.split for each in structured])
+    for first in range(0, len(structured), _ROWS):
         block = slice(first, first + _ROWS)
         bits = (signs.shape[1] - signs[block] @ signs.T) / 2.0
         near = (bits <= MOST_BITS) & (splits[block, None] != splits[None, :])
         for row, column in np.argwhere(near):
             a, b = first + int(row), int(column)
             if a < b and np.abs(values[a] - values[b]).mean() <= MOST_DIFFERENCE:
-                yield found[a], found[b]
+                yield structured[a], structured[b]

@@ -72,24 +72,24 @@ def describe(production: Production) -> list[str]:
         splits[each.split] = splits.get(each.split, 0) + 1
     by = Splits(production.plan).by
     parts = ", ".join(f"{name} {splits[name]:,}" for name in SPLITS if name in splits)
-    found = [f"splits by {by}: {parts}"]
+    lines = [f"splits by {by}: {parts}"]
     if by == "camera":
-        found.append("all splits show the same fires, as there are fewer places and runs than splits")
+        lines.append("all splits show the same fires, as there are fewer places and runs than splits")
     if rejects := count_rejects(draws):
         reasons = ", ".join(f"{reason} {number:,}" for reason, number in rejects.items())
-        found.append(f"{count(sum(rejects.values()), 'camera')} rejected and drawn again: {reasons}")
-    return found
+        lines.append(f"{count(sum(rejects.values()), 'camera')} rejected and drawn again: {reasons}")
+    return lines
 
 
 def _facts(production: Production) -> dict[str, Any]:
     """Collect the estimate for other programs; samples of one scene are made together."""
-    found = production.estimate()
+    estimate = production.estimate()
     scenes = [FrameList.of(each.index for each in visit.draws) for visit in production.visits]
     return {
         "count": production.plan.count,
-        "missing": found.samples,
-        "seconds": round(found.seconds),
-        "bytes": round(found.bytes),
+        "missing": estimate.samples,
+        "seconds": round(estimate.seconds),
+        "bytes": round(estimate.bytes),
         "scenes": scenes,
         "rejects": count_rejects(production.draws),
         "splits": {index: each.split for index, each in production.draws.items()},

@@ -95,7 +95,7 @@ def choose(out: Path, pattern: str, start: int) -> Selection:
     UsageError
         The pattern gives two files the same name.
     """
-    found, missing = [], []
+    chosen, missing = [], []
     for path, entry in sorted(manifest.read(out)["files"].items()):
         if not {"camera", "pass", "sha256", "bytes"} <= entry.keys():
             continue
@@ -103,7 +103,7 @@ def choose(out: Path, pattern: str, start: int) -> Selection:
         if not source.resolve().is_relative_to(out.resolve()) or not source.is_file():
             missing.append(path)
             continue
-        found.append(
+        chosen.append(
             File(
                 source,
                 _name(pattern, path, entry, start),
@@ -112,17 +112,17 @@ def choose(out: Path, pattern: str, start: int) -> Selection:
                 dict(_facts(path, entry, start)),
             )
         )
-    if not found:
+    if not chosen:
         raise input_error(out, "has no finished pictures or films; name a folder of firetwin render --out")
     names: dict[str, File] = {}
-    for each in found:
+    for each in chosen:
         if (other := names.setdefault(each.pattern.lower(), each)) is not each:
             both = f"{other.source.name} and {each.source.name}"
             raise UsageError(f"--pattern: {both} would both be {each.pattern}; add {{camera}} or {{pass}}")
     messages = (
         [f"{count(len(missing), 'file')} of the manifest missing, such as {missing[0]}"] if missing else []
     )
-    return Selection(found, messages)
+    return Selection(chosen, messages)
 
 
 def _name(pattern: str, path: str, entry: dict[str, Any], start: int) -> str:

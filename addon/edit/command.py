@@ -57,22 +57,22 @@ def _run(arguments: argparse.Namespace) -> None:
     if arguments.name not in known:
         hint = suggestion(arguments.name, known)
         raise UsageError(f'--pass: "{arguments.name}" is not one of {", ".join(known)}{hint}')
-    found = media.films(shot, arguments.name, arguments.film or arguments.out, arguments.out)
-    made = cut.Edit(
+    films_of_cameras = media.films(shot, arguments.name, arguments.film or arguments.out, arguments.out)
+    edit = cut.Edit(
         shot.settings.path.stem,
         shot.settings.time.rate,
-        tuple(found),
-        tuple(cut.cut(found)),
+        tuple(films_of_cameras),
+        tuple(cut.cut(films_of_cameras)),
         tuple(markers.find(shot)),
     )
-    used = {film.camera for film in found}
+    used = {film.camera for film in films_of_cameras}
     if omitted := [view for view in scene_runs.views(shot.settings) if view not in used]:
         say(f"omitted panoramas, other runs' views and cameras without a film: {', '.join(omitted)}")
-    clips, films = count(len(made.cut), "clip"), count(len(found), "film")
-    say(f"cut {clips} of {films}, {count(len(made.markers), 'marker')}")
+    clips, films = count(len(edit.cut), "clip"), count(len(films_of_cameras), "film")
+    say(f"cut {clips} of {films}, {count(len(edit.markers), 'marker')}")
     for suffix, text in formats.items():
         path = arguments.out / f"{STEM}{suffix}"
-        files.write_text(path, text(made), newline="\n")
+        files.write_text(path, text(edit), newline="\n")
         result(path)
 
 

@@ -148,13 +148,13 @@ class Edit:
 
 def stretches(frames: Iterable[int]) -> list[Stretch]:
     """Divide the frames of a film (ascending) into stretches of consecutive numbers."""
-    found: list[Stretch] = []
+    parts: list[Stretch] = []
     for position, frame in enumerate(frames):
-        if found and frame == found[-1].last + 1:
-            found[-1] = Stretch(found[-1].first, found[-1].position, found[-1].length + 1)
+        if parts and frame == parts[-1].last + 1:
+            parts[-1] = Stretch(parts[-1].first, parts[-1].position, parts[-1].length + 1)
         else:
-            found.append(Stretch(frame, position, 1))
-    return found
+            parts.append(Stretch(frame, position, 1))
+    return parts
 
 
 def clips(film: CameraFilm) -> list[Clip]:
@@ -169,16 +169,16 @@ def cut(films: Sequence[CameraFilm]) -> list[Clip]:
     the first.
     """
     having = [frozenset(film.frames) for film in films]
-    known = [film.stretches for film in films]
+    stretches_of = [film.stretches for film in films]
     every = sorted(frozenset().union(*having))
-    made: list[Clip] = []
+    cuts: list[Clip] = []
     for k, frame in enumerate(every):
         part = k * len(films) // len(every)
         order = [*range(part, len(films)), *range(part)]
         chosen = next(number for number in order if frame in having[number])
-        if made and made[-1].film is films[chosen] and made[-1].end == frame:
-            made[-1] = replace(made[-1], length=made[-1].length + 1)
+        if cuts and cuts[-1].film is films[chosen] and cuts[-1].end == frame:
+            cuts[-1] = replace(cuts[-1], length=cuts[-1].length + 1)
         else:
-            at = bisect.bisect_right(known[chosen], frame, key=lambda each: each.first) - 1
-            made.append(Clip(films[chosen], known[chosen][at], frame, 1))
-    return made
+            at = bisect.bisect_right(stretches_of[chosen], frame, key=lambda each: each.first) - 1
+            cuts.append(Clip(films[chosen], stretches_of[chosen][at], frame, 1))
+    return cuts

@@ -38,15 +38,15 @@ def text(edit: Edit) -> str:
 
 def reels(cameras: Iterable[str]) -> dict[str, str]:
     """Choose a reel for each camera: at most eight letters and digits, unique and not reserved."""
-    found: dict[str, str] = {}
+    reel_of: dict[str, str] = {}
     for camera in cameras:
         stem = re.sub(r"[^A-Z0-9]", "", camera.upper())[:_REEL] or "FILM"
         reel, number = stem, 1
-        while reel in _RESERVED or reel in found.values():
+        while reel in _RESERVED or reel in reel_of.values():
             number += 1
             reel = f"{stem[: _REEL - len(str(number))]}{number}"
-        found[camera] = reel
-    return found
+        reel_of[camera] = reel
+    return reel_of
 
 
 def _markers(edit: Edit, index: int) -> list[Marker]:

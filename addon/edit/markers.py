@@ -16,13 +16,13 @@ IGNITION, FLARE_UP, ARRIVAL = "RED", "MAGENTA", "YELLOW"
 
 def find(shot: Shot) -> list[Marker]:
     """Find ignition, flare-ups, and arrivals at towns and stations in the frames of a shot."""
-    shown, found = shot.frames, []
+    shown, markers = shot.frames, []
     for colour, event in _events(shot):
         seconds = times.seconds(shot.run, event.time)
         if shown.step > 0.0 and shown.first <= seconds <= shown.last:
             frame = 1 + round((seconds - shown.first) / shown.step)
-            found.append(Marker(frame, event.words, colour))
-    return sorted(found, key=lambda each: (each.frame, each.words))
+            markers.append(Marker(frame, event.words, colour))
+    return sorted(markers, key=lambda each: (each.frame, each.words))
 
 
 def _events(shot: Shot) -> Iterator[tuple[str, Event]]:

@@ -38,7 +38,7 @@ def films(shot: Shot, name: str, film: Path, out: Path) -> list[CameraFilm]:
     """
     content = manifest.read(film)
     entries = {path: entry for path, entry in content["files"].items() if _is_file(film, path)}
-    found = []
+    by_camera = []
     for camera in shot.settings.cameras:
         path = _film(entries, camera.name, name)
         if path is None or camera.rig.around:
@@ -53,11 +53,11 @@ def films(shot: Shot, name: str, film: Path, out: Path) -> list[CameraFilm]:
             if (each := _sequence(entries, camera.name, key, film, out))
         }
         slate = entries[path].get("slate_frames", 0)
-        found.append(CameraFilm(camera.name, url(film / path, out), frames, size, sequences, slate))
-    if not found:
+        by_camera.append(CameraFilm(camera.name, url(film / path, out), frames, size, sequences, slate))
+    if not by_camera:
         remedy = "run firetwin render with [render] video = true"
         raise input_error(film, f'has no film of the pass "{name}" of these cameras; {remedy}')
-    return found
+    return by_camera
 
 
 def url(path: Path, folder: Path) -> str:

@@ -64,22 +64,22 @@ def _add(scene: Any, camera: Track) -> None:
     from mathutils import Matrix
 
     data = bpy.data.cameras.new(camera.name)
-    made = bpy.data.objects.new(camera.name, data)
-    scene.collection.objects.link(made)
+    camera_object = bpy.data.objects.new(camera.name, data)
+    scene.collection.objects.link(camera_object)
     data.sensor_fit = "HORIZONTAL"
     data.sensor_width = camera.sensor
     data.sensor_height = camera.sensor * camera.aspect
-    made.rotation_mode = "QUATERNION"
+    camera_object.rotation_mode = "QUATERNION"
     before = None
     for number, focal, place, axes in zip(
         camera.frames, camera.focal, camera.position, camera.rotation, strict=True
     ):
         frame, rotation = int(number), Matrix(axes.tolist()).to_quaternion()
-        made.location = place.tolist()
+        camera_object.location = place.tolist()
         if before is not None:
             rotation.make_compatible(before)
-        made.rotation_quaternion = before = rotation
+        camera_object.rotation_quaternion = before = rotation
         data.lens = float(focal)
         for path in ("location", "rotation_quaternion"):
-            made.keyframe_insert(path, frame=frame)
+            camera_object.keyframe_insert(path, frame=frame)
         data.keyframe_insert("lens", frame=frame)

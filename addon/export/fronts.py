@@ -82,13 +82,13 @@ def polygons(lines: list[Line]) -> list[Polygon]:
     """Group closed lines into polygons: each hole (clockwise) belongs to the smallest ring around it."""
     signed = [area(line) for line in lines]
     outer = sorted((k for k, each in enumerate(signed) if each > 0.0), key=lambda k: signed[k])
-    found = {k: [lines[k]] for k in outer}
+    rings_of = {k: [lines[k]] for k in outer}
     for k, each in enumerate(signed):
         if each < 0.0:
             owner = next((j for j in outer if signed[j] >= -each and _is_inside(lines[k], lines[j])), None)
             if owner is not None:
-                found[owner].append(lines[k])
-    return [found[k] for k in sorted(outer)]
+                rings_of[owner].append(lines[k])
+    return [rings_of[k] for k in sorted(outer)]
 
 
 def _is_inside(inner: Line, ring: Line) -> bool:

@@ -64,7 +64,7 @@ def make(run: Run, zone: str, time: float) -> list[Raster]:
         burned = {times.iso(times.utc(run, each)): (arrival <= each).astype(np.uint8) for each in moments}
     start = f"seconds since {times.iso(times.utc(run, 0.0))}"
     flux = thumbnails.strongest(run)
-    found = [
+    rasters = [
         Raster("arrival", "Fire arrival", {start: arrival}, *fine, "s", float("nan")),
         Raster("intensity", "Maximum heat flux", {"maximum heat flux": flux}, *coarse, "W/m2"),
         Raster("fuel", "Fuel load", fuel, *fine, "kg/m2"),
@@ -73,10 +73,10 @@ def make(run: Run, zone: str, time: float) -> list[Raster]:
     column = _smoke_column(run, time)
     if column is not None:
         band = {times.iso(times.utc(run, time)): column}
-        found.append(
+        rasters.append(
             Raster("smoke_column", "Smoke column", band, run.air_latitude, run.air_longitude, "kg/m2")
         )
-    return found
+    return rasters
 
 
 def write(rasters: list[Raster], folder: Path, run: Run) -> list[Path]:
@@ -128,13 +128,13 @@ def _write(rasterio: ModuleType, raster: Raster, path: Path, run: Run) -> Path:
     note |= {"synthetic": "yes"} if run.synthetic else {}
     options = {"compress": "deflate", "predictor": "yes", "resampling": "nearest", "num_threads": "1"}
     with rasterio.MemoryFile() as memory, rasterio.MemoryFile(ext=".tif") as finished:
-        with memory.open(**profile) as made:
+        with memory.open(**profile) as raw:
             for number, (name, band) in enumerate(zip(raster.bands, bands, strict=True), 1):
-                made.write(band, number)
-                made.set_band_description(number, name)
-            made.update_tags(**note)
-        with memory.open() as made:
-            rasterio.shutil.copy(made, finished.name, driver="COG", **options)
+                raw.write(band, number)
+                raw.set_band_description(number, name)
+            raw.update_tags(**note)
+        with memory.open() as raw:
+            rasterio.shutil.copy(raw, finished.name, driver="COG", **options)
         data = finished.read()
     files.write(path, lambda part: part.write_bytes(data))
     return path

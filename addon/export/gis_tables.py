@@ -85,13 +85,13 @@ def _places(request: ExportRequest) -> Table:
     return table
 
 
-def _divisions(found: list[Feature]) -> list[Table]:
+def _divisions(features: list[Feature]) -> list[Table]:
     """Make tables of control lines and routes, and of division breaks."""
     line = Table(
         "divisions", "Control lines and routes of an allocation (exercise)", "MULTILINESTRING", _DIVISIONS
     )
     point = Table("division_breaks", "Division breaks (exercise)", "POINT", _DIVISIONS)
-    for feature in found:
+    for feature in features:
         given = feature.properties
         category = str(given.get("FeatureCategory") or "")
         style = map_symbols.find(category, map_symbols.LINES) or "other"

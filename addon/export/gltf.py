@@ -39,7 +39,7 @@ def write_content(content: SceneContent, request: ExportRequest) -> list[Path]:
     return [request.folder / NAME, request.folder / PAGE]
 
 
-def encode(content: SceneContent, request: ExportRequest, found: list[Place]) -> bytes:
+def encode(content: SceneContent, request: ExportRequest, named_places: list[Place]) -> bytes:
     """Encode the scene as .glb."""
     shot = request.shot
     first, last = (float(shot.run.times[at]) for at in (0, -1))
@@ -48,7 +48,7 @@ def encode(content: SceneContent, request: ExportRequest, found: list[Place]) ->
     gltf_forest.add(document, content, first)
     gltf_fronts.add(document, shot, fronts.of_shot(shot, content.frames.tolist()), first)
     gltf_cameras.add(document, content)
-    _add_places(document, request, found)
+    _add_places(document, request, named_places)
     return document.encode({"firetwin": describe(content, request)})
 
 

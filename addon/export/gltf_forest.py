@@ -56,7 +56,7 @@ def light_prototypes(prototypes: list[Prototype]) -> Numbers:
 
     Prototypes of one model whose other levels the scene does not use stay as they are.
     """
-    found = np.arange(len(prototypes))
+    choice = np.arange(len(prototypes))
     for k, heavy in enumerate(prototypes):
         same = [
             j
@@ -64,8 +64,8 @@ def light_prototypes(prototypes: list[Prototype]) -> Numbers:
             if _model(each) == _model(heavy) and each.level > heavy.level
         ]
         if len(heavy.triangles) > _HEAVY and same:
-            found[k] = min(same, key=lambda j: prototypes[j].level)
-    return found
+            choice[k] = min(same, key=lambda j: prototypes[j].level)
+    return choice
 
 
 def _model(prototype: Prototype) -> str:
@@ -88,13 +88,13 @@ def _instances(document: Document, plants: Plants, chosen: Numbers, start: float
     w, x, y, z = plants.rotation[chosen].T.astype(np.float64)
     turns = np.column_stack([x, z, -y, w])
     arrival = np.where(np.isfinite(plants.arrival), plants.arrival - start, NEVER)[chosen]
-    found = {
+    attributes = {
         "TRANSLATION": document.vectors(plants.position[chosen], target=0),
         "ROTATION": document.buffer.accessor(turns, glb.SIGNED_SHORT, "VEC4", normalized=True),
         "SCALE": document.buffer.accessor(plants.scale[chosen][:, [0, 2, 1]], glb.FLOAT, "VEC3"),
         "_ARRIVAL": document.scalars(arrival),
     }
-    return found if plants.ids is None else found | {"_ID": document.scalars(plants.ids[chosen])}
+    return attributes if plants.ids is None else attributes | {"_ID": document.scalars(plants.ids[chosen])}
 
 
 class _Models:

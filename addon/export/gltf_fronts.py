@@ -21,7 +21,7 @@ _STEP = 120.0  # m between points of a line, so that it follows the ground
 _LINES = 1  # mode of a primitive: pairs of points
 
 
-def add(document: Document, shot: Shot, found: Sequence[DatedFront], start: float) -> None:
+def add(document: Document, shot: Shot, dated_fronts: Sequence[DatedFront], start: float) -> None:
     """Append fronts.
 
     Parameters
@@ -29,12 +29,12 @@ def add(document: Document, shot: Shot, found: Sequence[DatedFront], start: floa
     start
         Model time of the run's start, s.
     """
-    if not found:
+    if not dated_fronts:
         return
     document.use("KHR_materials_unlit")
     material = document.material("front", COLOUR, extensions={"KHR_materials_unlit": {}})
     parent = document.node("fronts")
-    for front in found:
+    for front in dated_fronts:
         points, pairs = lines(shot, front.lines)
         name = f"front {times.iso(front.begin)}"
         part = {

@@ -11,7 +11,7 @@ from ..errors import Error
 from ..progress import count
 from ..ui import job, render, run, scene_file, working
 from ..ui.job import InThread, Steps
-from ..ui.menu_entries import Entry
+from ..ui.menu_entries import MenuEntry
 from ..ui.sidebar import SidebarPanel
 from ..ui.working import Working
 from . import formats
@@ -106,4 +106,4 @@ def unregister() -> None:
 
 classes = (FIRETWIN_OT_export_to, FIRETWIN_PT_export)
 properties = ExportProperties
-menu = {"Render": (Entry("export_to", icon="EXPORT"),)}
+menu = {"Render": (MenuEntry("export_to", icon="EXPORT"),)}

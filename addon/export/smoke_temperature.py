@@ -68,7 +68,7 @@ def resample(
     ground, thickness
         (rows, columns) ground height, m, and depth of cells relative to flat ground.
     """
-    made = np.zeros((len(height), *ground.shape), np.float32)
+    resampled = np.zeros((len(height), *ground.shape), np.float32)
     row, column = np.indices(ground.shape)
     for index, level in enumerate(height):
         above = (level - ground) / thickness
@@ -77,5 +77,5 @@ def resample(
         part = (at - low).astype(np.float32)
         high = np.minimum(low + 1, len(middles) - 1)
         value = excess[low, row, column] * (1.0 - part) + excess[high, row, column] * part
-        made[index] = np.where((above >= 0.0) & (above <= middles[-1]), value, 0.0)
-    return made
+        resampled[index] = np.where((above >= 0.0) & (above <= middles[-1]), value, 0.0)
+    return resampled

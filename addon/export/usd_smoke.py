@@ -64,17 +64,17 @@ def write(content: SceneContent, out: Path, shot: Shot) -> Path:
     stage = new_stage(path, content.rate, (int(content.frames[0]), int(content.frames[-1])))
     set_kind(stage.GetDefaultPrim(), "assembly")
     set_kind(UsdGeom.Xform.Define(stage, "/World/Smoke").GetPrim(), "component")
-    found: dict[str, Grid] = {}
+    grids: dict[str, Grid] = {}
     for layer in content.smoke:
         for file in layer.files.values():
             with writing(out):
                 shutil.copyfile(file, folder / file.name)
-        found |= _define(stage, layer)
+        grids |= _define(stage, layer)
     stage.GetRootLayer().Save()
-    field, scale = thickness(found)
+    field, scale = thickness(grids)
     text = _README.format(
         layers="".join(f"{layer.name}_*.vdb: {len(layer.files)} frames\n" for layer in content.smoke),
-        grids="\n".join(f"  {name:<12} {_GRIDS.get(name, '')}, {each.unit}" for name, each in found.items()),
+        grids="\n".join(f"  {name:<12} {_GRIDS.get(name, '')}, {each.unit}" for name, each in grids.items()),
         field=field,
         scale=scale,
         albedo=ALBEDO,
@@ -94,12 +94,12 @@ def thickness(found: dict[str, Grid]) -> tuple[str, float]:
 def _define(stage: Any, layer: SmokeLayer) -> dict[str, Grid]:
     """Define the volume of a layer, and return its grids."""
     boxes = {frame: read_grids(file) for frame, file in layer.files.items()}
-    found = {name: grid for each in boxes.values() for name, grid in each.items()}
-    files = {name: layer.files for name in found}
+    grid_of = {name: grid for each in boxes.values() for name, grid in each.items()}
+    files = {name: layer.files for name in grid_of}
     for file in layer.temperature.values():
-        found |= read_grids(file)
+        grid_of |= read_grids(file)
         files["temperature"] = layer.temperature
-    density, scale = thickness(found) if found else ("density", 1.0)
+    density, scale = thickness(grid_of) if grid_of else ("density", 1.0)
     volume = UsdVol.Volume.Define(stage, f"/World/Smoke/{layer.name.title()}")
     prim = volume.GetPrim()
     prim.SetCustomDataByKey("firetwin:scatterColor", Gf.Vec3f(*ALBEDO))
@@ -107,7 +107,7 @@ def _define(stage: Any, layer: SmokeLayer) -> dict[str, Grid]:
     prim.SetCustomDataByKey("firetwin:extinctionOfDensity", scale)
     for name in FIELDS:
         grid = density if name == "density" else name
-        if grid in found:
+        if grid in grid_of:
             volume.CreateFieldRelationship(
                 name, _define_field(stage, f"{prim.GetPath()}/{name}", grid, files[grid])
             )
@@ -117,7 +117,7 @@ def _define(stage: Any, layer: SmokeLayer) -> dict[str, Grid]:
             low = [min(grid.low[axis] for grid in grids.values()) for axis in range(3)]
             high = [max(grid.high[axis] for grid in grids.values()) for axis in range(3)]
             attribute.Set(Vt.Vec3fArray([Gf.Vec3f(*low), Gf.Vec3f(*high)]), frame)
-    return found
+    return grid_of
 
 
 def _define_field(stage: Any, path: str, grid: str, files: dict[int, Path]) -> Any:
@@ -137,7 +137,7 @@ def read_grids(file: Path) -> dict[str, Grid]:
     """Read the grids of an OpenVDB file that have voxels."""
     import openvdb
 
-    found = {}
+    grids = {}
     for grid in openvdb.readAllGridMetadata(str(file)):
         low, high = grid.metadata.get("file_bbox_min"), grid.metadata.get("file_bbox_max")
         if low is not None and all(a <= b for a, b in zip(low, high, strict=True)):
@@ -145,5 +145,5 @@ def read_grids(file: Path) -> dict[str, Grid]:
                 grid.transform.indexToWorld(tuple(at + shift for at in corner))
                 for corner, shift in ((low, -0.5), (high, 0.5))
             ]
-            found[grid.name] = Grid(grid.metadata.get("units", ""), *ends)
-    return found
+            grids[grid.name] = Grid(grid.metadata.get("units", ""), *ends)
+    return grids

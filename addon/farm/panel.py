@@ -18,7 +18,7 @@ from ..shot.source import ShotSource
 from ..ui import camera_edits, job, keys, run, scene_file, working
 from ..ui.folder_watch import FolderWatch
 from ..ui.job import InThread, Message, Steps
-from ..ui.menu_entries import Entry
+from ..ui.menu_entries import MenuEntry
 from ..ui.sidebar import SidebarPanel
 from ..ui.text import draw_paragraph, labelled_row
 from ..ui.working import Working
@@ -351,10 +351,10 @@ def unregister() -> None:
 
 menu = {
     "Render": (
-        Entry("farm_write", icon="FILE_TICK"),
-        Entry("farm_submit", icon="EXPORT"),
-        Entry("farm_status", icon="FILE_REFRESH"),
-        Entry("farm_resume", icon="PLAY"),
-        Entry("farm_cancel", icon="CANCEL"),
+        MenuEntry("farm_write", icon="FILE_TICK"),
+        MenuEntry("farm_submit", icon="EXPORT"),
+        MenuEntry("farm_status", icon="FILE_REFRESH"),
+        MenuEntry("farm_resume", icon="PLAY"),
+        MenuEntry("farm_cancel", icon="CANCEL"),
     )
 }

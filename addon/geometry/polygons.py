@@ -28,8 +28,8 @@ def inside(rings: Sequence[Array], points: Array) -> NDArray[np.bool_]:
     """
     first = np.concatenate(rings)
     second = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
-    found = np.all((points >= first.min(axis=0)) & (points <= first.max(axis=0)), axis=1)
-    near = np.flatnonzero(found)
+    is_inside = np.all((points >= first.min(axis=0)) & (points <= first.max(axis=0)), axis=1)
+    near = np.flatnonzero(is_inside)
     rise = np.where(first[:, 1] == second[:, 1], 1.0, second[:, 1] - first[:, 1])
     step = max(_AT_ONCE // len(first), 1)
     for start in range(0, len(near), step):
@@ -37,5 +37,5 @@ def inside(rings: Sequence[Array], points: Array) -> NDArray[np.bool_]:
         x, y = points[some, None].transpose(2, 0, 1)
         crosses = (first[:, 1] > y) != (second[:, 1] > y)
         at = first[:, 0] + (y - first[:, 1]) / rise * (second[:, 0] - first[:, 0])
-        found[some] = np.sum(crosses & (x < at), axis=1) % 2 == 1
-    return found
+        is_inside[some] = np.sum(crosses & (x < at), axis=1) % 2 == 1
+    return is_inside

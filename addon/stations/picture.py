@@ -33,7 +33,7 @@ Pixels = NDArray[np.float32]
 
 
 @dataclass(frozen=True)
-class Field:
+class RunTerrain:
     """Terrain of a run: axes (ny,), (nx,), degrees; elevation (ny, nx), m; arrival time (ny, nx), s.
 
     The arrival time is NaN in cells that never burn.
@@ -70,7 +70,7 @@ class MapPicture:
         return int(np.argmin(far)) if far.size else None
 
 
-def prepare_map(field: Field | None, latitude: ArrayLike, longitude: ArrayLike) -> MapPicture | None:
+def prepare_map(field: RunTerrain | None, latitude: ArrayLike, longitude: ArrayLike) -> MapPicture | None:
     """Prepare the map of a run's ground and of the stations around it; None without either."""
     y, x = np.asarray(latitude, np.float64), np.asarray(longitude, np.float64)
     if field is None and not y.size:
@@ -124,7 +124,7 @@ def draw(
     return picture
 
 
-def _box(field: Field | None, y: Array, x: Array) -> tuple[float, float, float, float]:
+def _box(field: RunTerrain | None, y: Array, x: Array) -> tuple[float, float, float, float]:
     """Return south, north, west and east of the run and of the stations near it."""
     if field is None:
         return float(y.min()), float(y.max()), float(x.min()), float(x.max())
@@ -136,7 +136,7 @@ def _box(field: Field | None, y: Array, x: Array) -> tuple[float, float, float, 
 
 
 def _draw_ground(
-    field: Field, box: tuple[float, float, float, float], ground: Pixels, arrival: Array
+    field: RunTerrain, box: tuple[float, float, float, float], ground: Pixels, arrival: Array
 ) -> None:
     """Draw the shaded ground and the arrival times of the run onto the map."""
     south, north, west, east = box

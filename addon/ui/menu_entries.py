@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 
-class Entry(NamedTuple):
+class MenuEntry(NamedTuple):
     """A menu entry: operator, text (empty: the operator's name), icon, and its options."""
 
     operator: str
@@ -22,4 +22,4 @@ class Submenu(NamedTuple):
     text: str
 
 
-Line = Entry | Submenu
+Line = MenuEntry | Submenu

@@ -9,35 +9,37 @@ from __future__ import annotations
 import bpy
 
 from . import feature_panels, keys, manual, sections
-from .menu_entries import Entry, Line, Submenu
+from .menu_entries import Line, MenuEntry, Submenu
 
 _OWN: dict[str, tuple[Line, ...]] = {
     "Run": (
-        Entry("open", "Open run...", "FILEBROWSER"),
-        Entry("sample", icon="LIGHT_SUN"),
-        Entry("inspect", icon="FILE_REFRESH"),
-        Entry("export", "Export scene file...", "EXPORT"),
-        Entry("run_add", icon="ADD"),
-        Entry("run_remove", "Remove first compared run", "REMOVE"),
+        MenuEntry("open", "Open run...", "FILEBROWSER"),
+        MenuEntry("sample", icon="LIGHT_SUN"),
+        MenuEntry("inspect", icon="FILE_REFRESH"),
+        MenuEntry("export", "Export scene file...", "EXPORT"),
+        MenuEntry("run_add", icon="ADD"),
+        MenuEntry("run_remove", "Remove first compared run", "REMOVE"),
     ),
     "Scene": (
-        Entry("build", icon="WORLD"),
+        MenuEntry("build", icon="WORLD"),
         Submenu("FIRETWIN_MT_parts", "Rebuild parts"),
-        Entry("solve", icon="MOD_FLUIDSIM"),
-        Entry("smoke_volumes", "Write smoke of this frame", "OUTLINER_DATA_VOLUME", {"which": "frame"}),
-        Entry("smoke_volumes", "Write smoke of playback range", "OUTLINER_DATA_VOLUME", {"which": "range"}),
-        Entry("live", icon="SHADING_RENDERED"),
-        Entry("show_live", icon="SHADING_RENDERED"),
-        Entry("quality", "Set quality", choice="level"),
-        Entry("preset", icon="ADD"),
+        MenuEntry("solve", icon="MOD_FLUIDSIM"),
+        MenuEntry("smoke_volumes", "Write smoke of this frame", "OUTLINER_DATA_VOLUME", {"which": "frame"}),
+        MenuEntry(
+            "smoke_volumes", "Write smoke of playback range", "OUTLINER_DATA_VOLUME", {"which": "range"}
+        ),
+        MenuEntry("live", icon="SHADING_RENDERED"),
+        MenuEntry("show_live", icon="SHADING_RENDERED"),
+        MenuEntry("quality", "Set quality", choice="level"),
+        MenuEntry("preset", icon="ADD"),
         Submenu("FIRETWIN_MT_presets", "Use saved preset"),
         Submenu("FIRETWIN_MT_reset", "Reset settings"),
-        Entry("view", "View through camera", "CAMERA_DATA", {"whole": False}),
-        Entry("view", "View whole run", "WORLD_DATA", {"whole": True}),
-        Entry("tiles_preview", icon="MESH_GRID"),
-        Entry("tiles_clear", icon="TRASH"),
-        Entry("assets", icon="ASSET_MANAGER"),
-        Entry("remove", icon="TRASH"),
+        MenuEntry("view", "View through camera", "CAMERA_DATA", {"whole": False}),
+        MenuEntry("view", "View whole run", "WORLD_DATA", {"whole": True}),
+        MenuEntry("tiles_preview", icon="MESH_GRID"),
+        MenuEntry("tiles_clear", icon="TRASH"),
+        MenuEntry("assets", icon="ASSET_MANAGER"),
+        MenuEntry("remove", icon="TRASH"),
     ),
     "Time": (
         Submenu("FIRETWIN_MT_moments", "Jump to event"),
@@ -45,42 +47,42 @@ _OWN: dict[str, tuple[Line, ...]] = {
         Submenu("FIRETWIN_MT_end", "End film at event"),
     ),
     "Cameras": (
-        Entry("camera_add", "Add camera from view", "OUTLINER_OB_CAMERA", choice="kind"),
-        Entry("fly", "Walk with keys for the camera", "VIEW_PAN", {"mode": "walk"}),
-        Entry("fly", "Fly with keys for the camera", "ORIENTATION_GIMBAL", {"mode": "fly"}),
-        Entry("camera_key", icon="KEY_HLT"),
-        Entry("camera_aim", "Point camera at", "CON_TRACKTO", choice="target"),
+        MenuEntry("camera_add", "Add camera from view", "OUTLINER_OB_CAMERA", choice="kind"),
+        MenuEntry("fly", "Walk with keys for the camera", "VIEW_PAN", {"mode": "walk"}),
+        MenuEntry("fly", "Fly with keys for the camera", "ORIENTATION_GIMBAL", {"mode": "fly"}),
+        MenuEntry("camera_key", icon="KEY_HLT"),
+        MenuEntry("camera_aim", "Point camera at", "CON_TRACKTO", choice="target"),
         Submenu("FIRETWIN_MT_named", "Point camera at place"),
-        Entry("camera_path", icon="CON_FOLLOWPATH"),
+        MenuEntry("camera_path", icon="CON_FOLLOWPATH"),
         Submenu("FIRETWIN_MT_lenses", "Set lens and sensor"),
-        Entry("camera_copy", icon="DUPLICATE"),
-        Entry("camera_remove", icon="REMOVE"),
-        Entry("go", icon="FORWARD"),
+        MenuEntry("camera_copy", icon="DUPLICATE"),
+        MenuEntry("camera_remove", icon="REMOVE"),
+        MenuEntry("go", icon="FORWARD"),
         Submenu("FIRETWIN_MT_go", "Go to place of the run"),
-        Entry("vr_session", icon="VIEW3D"),
+        MenuEntry("vr_session", icon="VIEW3D"),
         Submenu("FIRETWIN_MT_vr_landmarks", "Start VR at landmark"),
-        Entry("vr_landmarks", icon="PMARKER_ACT"),
-        Entry("station_map", icon="IMAGE_DATA"),
-        Entry("station_pick", icon="EYEDROPPER"),
+        MenuEntry("vr_landmarks", icon="PMARKER_ACT"),
+        MenuEntry("station_map", icon="IMAGE_DATA"),
+        MenuEntry("station_pick", icon="EYEDROPPER"),
     ),
     "Render": (
-        Entry("output_preset", "Set output preset", choice="preset"),
-        Entry("render", "Render pictures and films", "RENDER_STILL"),
-        Entry("render_background", icon="RENDER_ANIMATION"),
-        Entry("queue", "Pause background render", "PAUSE", {"what": "pause"}),
-        Entry("queue", "Resume background render", "PLAY", {"what": "go_on"}),
-        Entry("queue", "Remove background render", "X", {"what": "remove"}),
-        Entry("regrade", "Add Firetwin Regrade to compositor...", "NODE_COMPOSITING"),
-        Entry("viewport_measure", icon="TIME"),
-        Entry("f12_files", "Let F12 write files", "OUTPUT", {"on": True}),
-        Entry("f12_files", "Stop F12 writing files", "OUTPUT", {"on": False}),
-        Entry("stop", icon="CANCEL"),
+        MenuEntry("output_preset", "Set output preset", choice="preset"),
+        MenuEntry("render", "Render pictures and films", "RENDER_STILL"),
+        MenuEntry("render_background", icon="RENDER_ANIMATION"),
+        MenuEntry("queue", "Pause background render", "PAUSE", {"what": "pause"}),
+        MenuEntry("queue", "Resume background render", "PLAY", {"what": "go_on"}),
+        MenuEntry("queue", "Remove background render", "X", {"what": "remove"}),
+        MenuEntry("regrade", "Add Firetwin Regrade to compositor...", "NODE_COMPOSITING"),
+        MenuEntry("viewport_measure", icon="TIME"),
+        MenuEntry("f12_files", "Let F12 write files", "OUTPUT", {"on": True}),
+        MenuEntry("f12_files", "Stop F12 writing files", "OUTPUT", {"on": False}),
+        MenuEntry("stop", icon="CANCEL"),
     ),
     "Help": (
-        Entry("help", "Open manual: first steps", "QUESTION", {"page": "artists"}),
-        Entry("help", "Open manual: settings", "QUESTION", {"page": "settings"}),
-        Entry("help", "Open manual: all pages", "QUESTION", {"page": "index"}),
-        Entry("copy", "Copy details of last message", "COPYDOWN"),
+        MenuEntry("help", "Open manual: first steps", "QUESTION", {"page": "artists"}),
+        MenuEntry("help", "Open manual: settings", "QUESTION", {"page": "settings"}),
+        MenuEntry("help", "Open manual: all pages", "QUESTION", {"page": "index"}),
+        MenuEntry("copy", "Copy details of last message", "COPYDOWN"),
     ),
 }
 MENUS = {name: (*lines[:-1], *feature_panels.menu_lines(name), lines[-1]) for name, lines in _OWN.items()}
@@ -99,19 +101,19 @@ WITHOUT_ENTRY = {
 """Operators that only other operators call, and the reason."""
 
 PIE = (
-    Entry("camera_key", icon="KEY_HLT"),
-    Entry("fly", "Walk", "VIEW_PAN", {"mode": "walk"}),
-    Entry("build", icon="WORLD"),
-    Entry("view", "Through camera", "CAMERA_DATA", {"whole": False}),
-    Entry("camera_add", "Add camera from view", "OUTLINER_OB_CAMERA", choice="kind"),
-    Entry("camera_aim", "Point camera at", "CON_TRACKTO", choice="target"),
-    Entry("render_background", icon="RENDER_ANIMATION"),
+    MenuEntry("camera_key", icon="KEY_HLT"),
+    MenuEntry("fly", "Walk", "VIEW_PAN", {"mode": "walk"}),
+    MenuEntry("build", icon="WORLD"),
+    MenuEntry("view", "Through camera", "CAMERA_DATA", {"whole": False}),
+    MenuEntry("camera_add", "Add camera from view", "OUTLINER_OB_CAMERA", choice="kind"),
+    MenuEntry("camera_aim", "Point camera at", "CON_TRACKTO", choice="target"),
+    MenuEntry("render_background", icon="RENDER_ANIMATION"),
     Submenu("FIRETWIN_MT_go", "Go to place"),
 )
 """Sectors of the pie menu, in Blender's order: left, right, below, above, then the corners."""
 
 
-def entry_text(entry: Entry) -> str:
+def entry_text(entry: MenuEntry) -> str:
     """Return the text of an entry: its own, else the name of its operator."""
     return entry.text or getattr(bpy.types, f"FIRETWIN_OT_{entry.operator}").bl_label
 
@@ -166,7 +168,7 @@ class FIRETWIN_MT_reset(bpy.types.Menu):
             self.layout.operator("firetwin.reset", text=text).section = section.name
 
 
-def _create_choice_menu(entry: Entry) -> type[bpy.types.Menu]:
+def _create_choice_menu(entry: MenuEntry) -> type[bpy.types.Menu]:
     def draw(self: bpy.types.Menu, context: bpy.types.Context) -> None:
         self.layout.operator_context = "INVOKE_REGION_WIN"
         self.layout.operator_enum(f"firetwin.{entry.operator}", entry.choice)
@@ -177,7 +179,7 @@ def _create_choice_menu(entry: Entry) -> type[bpy.types.Menu]:
 
 
 _CHOICES = {
-    line.operator: _create_choice_menu(line) for line in PIE if isinstance(line, Entry) and line.choice
+    line.operator: _create_choice_menu(line) for line in PIE if isinstance(line, MenuEntry) and line.choice
 }
 """Menus of the pie's operators with a choice."""
 
@@ -194,7 +196,7 @@ class FIRETWIN_MT_pie(bpy.types.Menu):
         for line in PIE:
             name = pie_menu_name(line)
             if name:  # a submenu of a pie opens neither by its number nor by a click
-                icon = line.icon if isinstance(line, Entry) else "NONE"
+                icon = line.icon if isinstance(line, MenuEntry) else "NONE"
                 pie.operator("wm.call_menu", text=line.text, icon=icon).name = name
             else:
                 _draw(pie, (line,))

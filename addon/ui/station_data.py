@@ -19,7 +19,7 @@ from ..stations.station_file import StationFile
 from . import job
 
 
-class Key(NamedTuple):
+class StationKey(NamedTuple):
     """Station file and run folder, with their modification times, ns."""
 
     file: Path
@@ -53,11 +53,11 @@ class Loaded:
     problem: str = ""
 
 
-_known: dict[Key, Loaded | str] = {}
+_known: dict[StationKey, Loaded | str] = {}
 _reading: threading.Thread | None = None
 
 
-def key(panel: bpy.types.PropertyGroup) -> Key | None:
+def key(panel: bpy.types.PropertyGroup) -> StationKey | None:
     """Return the key of the files in the panel; None if the file is missing."""
     if not panel.stations.file:
         return None
@@ -66,12 +66,14 @@ def key(panel: bpy.types.PropertyGroup) -> Key | None:
         run = folder
     try:
         changed = file.stat().st_mtime_ns
-        return Key(file, changed, run, readers.folder.changing_file(run).stat().st_mtime_ns if run else 0)
+        return StationKey(
+            file, changed, run, readers.folder.changing_file(run).stat().st_mtime_ns if run else 0
+        )
     except OSError:
         return None
 
 
-def get(wanted: Key) -> Loaded | str | None:
+def get(wanted: StationKey) -> Loaded | str | None:
     """Return the data, or an error message; None while a thread reads the files.
 
     Without a window the files are read immediately.
@@ -105,7 +107,7 @@ def clear() -> None:
     _known.clear()
 
 
-def _read(wanted: Key) -> None:
+def _read(wanted: StationKey) -> None:
     try:
         found: Loaded | str = load(wanted.file, wanted.run)
     except Exception as error:
@@ -127,7 +129,7 @@ def load(file: Path, folder: Path | None) -> Loaded:
         return Loaded(station_file, plan=picture.prepare_map(None, *station_file.positions))
     try:
         run = readers.open(folder)
-        ground = picture.Field(
+        ground = picture.RunTerrain(
             run.fuel_latitude, run.fuel_longitude, Elevation(run).fuel, run.fuel_arrival_time()
         )
         arrivals = fire_arrival.sample(run, *station_file.positions)

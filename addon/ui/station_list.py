@@ -18,7 +18,7 @@ from ..stations.listing import StationRow
 from ..stations.query import Query
 from ..stations.records import Station
 from . import station_data, station_filter
-from .station_data import Key, Loaded
+from .station_data import Loaded, StationKey
 
 NO_FILE = "Choose a station file above"
 READING = "Reading the stations"
@@ -43,7 +43,7 @@ class FIRETWIN_PG_stations(bpy.types.PropertyGroup):
 class ListState:
     """Content of the list and its input; `stamp` changes with the content."""
 
-    wanted: Key | None = None
+    wanted: StationKey | None = None
     query: Query | None = None
     loaded: Loaded | None = None
     rows: list[StationRow] = field(default_factory=list)
@@ -130,7 +130,7 @@ def clear() -> None:
     station_data.clear()
 
 
-def _survey(wanted: Key, loaded: Loaded, asked: Query) -> ListState:
+def _survey(wanted: StationKey, loaded: Loaded, asked: Query) -> ListState:
     survey = listing.survey(loaded.station_file, asked)
     status = count(len(survey.rows), "station")
     out = ", ".join(f"{number:,} {reason}" for reason, number in survey.left_out.items())

@@ -24,12 +24,12 @@ def operators():
 def full_names(name):
     """Names of an operator in F3, with the menus that lead to it; empty without an entry."""
     return [
-        f"Firetwin > {title} > {menus.entry_text(line) if isinstance(line, menus.Entry) else line.text}"
+        f"Firetwin > {title} > {menus.entry_text(line) if isinstance(line, menus.MenuEntry) else line.text}"
         for title, lines in menus.MENUS.items()
         for line in lines
         if (
             line.operator == name
-            if isinstance(line, menus.Entry)
+            if isinstance(line, menus.MenuEntry)
             else line.name == SUBMENUS.get(name, "no menu")
         )
     ]

@@ -6,7 +6,7 @@ from dataclasses import replace
 from datetime import UTC, datetime
 
 import numpy as np
-from firetwin.dataset.rendered import Camera, Rendered
+from firetwin.dataset.rendered import Rendered, SampleCamera
 from firetwin.dataset.survey import Place
 from firetwin.passes import masks
 from firetwin.shot.georeference import Georeference
@@ -15,7 +15,7 @@ from firetwin_core import geo
 
 def looking(
     pitch: float, height: float = 100.0, fov: float = 60.0, size: tuple[int, int] = (64, 48)
-) -> Camera:
+) -> SampleCamera:
     """Make a camera at a height (m) above the origin that looks north, with a pitch in degrees."""
     width, rows = size
     focal = 0.5 * width / np.tan(np.radians(0.5 * fov))
@@ -24,17 +24,17 @@ def looking(
     to_world = np.eye(4)
     to_world[:3, :3] = np.column_stack([right, np.cross(right, ahead), -ahead])
     to_world[:3, 3] = 0.0, 0.0, height
-    return Camera(to_world, focal, focal, 0.5 * width, 0.5 * rows, width, rows)
+    return SampleCamera(to_world, focal, focal, 0.5 * width, 0.5 * rows, width, rows)
 
 
-def directions(camera: Camera) -> np.ndarray:
+def directions(camera: SampleCamera) -> np.ndarray:
     """Directions (h, w, 3) of the rays through pixel centres, of planar length 1, in the scene."""
     u, v = np.meshgrid(np.arange(camera.width) + 0.5, np.arange(camera.height) + 0.5)
     x, y = (u - camera.cx) / camera.fx, (camera.cy - v) / camera.fy
     return np.stack([x, y, -np.ones_like(x)], axis=-1) @ camera.to_world[:3, :3].T
 
 
-def plane(camera: Camera, **maps) -> Rendered:
+def plane(camera: SampleCamera, **maps) -> Rendered:
     """Make the sample of a grey level plane at z = 0 under a lighter sky, with some maps replaced."""
     rays = directions(camera)
     down = rays[..., 2] < 0.0

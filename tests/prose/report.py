@@ -1,9 +1,9 @@
 """Check docstrings, comments, messages and pages for wording that readers must read twice.
 
 ``.venv/bin/python tests/prose`` lists the hits of each folder and page with more than 1.5 hits per 1,000
-words, and fails if there are any, if Python says "is no X", or if names.py finds more names than its
-ceilings; ``--table`` prints words and rate of every folder and page; ``--list [PATH ...]`` prints every hit
-and name. The rules are in rules.py, each with a hint and two examples that a test checks.
+words, and fails if there are any, if Python says "is no X", or if names.py finds a name; ``--table`` prints
+words and rate of every folder and page; ``--list [PATH ...]`` prints every hit. The rules are in rules.py,
+each with a hint and two examples that a test checks.
 """
 
 from __future__ import annotations
@@ -124,20 +124,16 @@ def main() -> int:
         total = sum(words.values())
         print(f"{'all':32} {1000 * len(hits) / max(total, 1):6.1f} {len(hits):6} {total:8}")
         return 0
-    unclear = names.count(ROOT)
     if arguments.list:
         show(hits)
-        for name in (name for folder in unclear.values() for name in folder):
-            print(f"{name.path}:{name.line}: {name.name}, for {name.lines} lines; write what the object is")
         return 0
     over = {name: rate for name, rate in rates.items() if rate > LIMIT}
     strict = [hit for hit in hits if hit.rule.is_strict and hit.path.endswith(".py")]
     show({*strict, *(hit for name in over for hit in by_place[name])})
     messages = [f"{name}: {rate:.1f} hits per 1,000 words, at most {LIMIT}" for name, rate in over.items()]
     messages += [
-        f"{folder}: {len(unclear[folder])} names such as found, known or made, at most {ceiling}; see --list"
-        for folder, ceiling in names.CEILINGS.items()
-        if len(unclear[folder]) > ceiling
+        f"{name.path}:{name.line}: {name.name}, for {name.lines} lines; write what the object is"
+        for name in names.collect(ROOT)
     ]
     messages += [f"{len(strict)} hits of a rule that Python may not break"] * bool(strict)
     print(*messages, sep="\n", end="\n" * bool(messages), file=sys.stderr)

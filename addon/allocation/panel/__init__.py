@@ -21,7 +21,7 @@ from ...shot.shot import Shot
 from ...shot.source import ShotSource
 from ...ui import job, run, scene_file, working
 from ...ui.job import InThread, Message, Steps
-from ...ui.menu_entries import Entry
+from ...ui.menu_entries import MenuEntry
 from ...ui.sidebar import SidebarPanel
 from ...ui.text import draw_paragraph
 from ...ui.working import Working
@@ -188,4 +188,4 @@ def unregister() -> None:
     text.describe.cache_clear()
 
 
-menu = {"Scene": (Entry("allocate", icon="COMMUNITY"),)}
+menu = {"Scene": (MenuEntry("allocate", icon="COMMUNITY"),)}

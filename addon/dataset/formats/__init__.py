@@ -56,13 +56,13 @@ def names(text: str) -> tuple[str, ...]:
     """
     if text == "all":
         return tuple(FORMATS)
-    found = tuple(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
-    for name in found:
+    chosen = tuple(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
+    for name in chosen:
         if name in _CONVERTERS:
             raise UsageError(f"firetwin does not write {name}; {_CONVERTERS[name]}")
         if name not in FORMATS:
             raise UsageError(f'there is no format "{name}"; choose from {", ".join(FORMATS)}, all')
-    return found
+    return chosen
 
 
 def writer(name: str) -> Writer:

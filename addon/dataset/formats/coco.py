@@ -113,13 +113,13 @@ def segment_ids(
 
 
 def _segments(segments: NDArray[np.int64]) -> list[dict[str, Any]]:
-    found = []
+    entries = []
     areas = np.bincount(segments.ravel())
     for number in (np.flatnonzero(areas[1:]) + 1).tolist():  # without void
         mask = segments == number
         rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
         x, y = int(columns[0]), int(rows[0])
-        found.append(
+        entries.append(
             {
                 "id": number,
                 "category_id": number // _SEGMENTS,
@@ -128,4 +128,4 @@ def _segments(segments: NDArray[np.int64]) -> list[dict[str, Any]]:
                 "iscrowd": 0,
             }
         )
-    return found
+    return entries

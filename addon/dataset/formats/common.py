@@ -30,15 +30,15 @@ def by_split(samples: Iterable[Truth]) -> dict[str, list[Truth]]:
 
 def by_run(samples: Iterable[Truth]) -> dict[str, list[Truth]]:
     """Sort the samples into their runs, which have separate local metres. Keys are unique folder names."""
-    found: dict[str, list[Truth]] = defaultdict(list)
+    samples_of: dict[str, list[Truth]] = defaultdict(list)
     for truth in samples:
-        found[truth.groups.get("run", "run")].append(truth)
+        samples_of[truth.groups.get("run", "run")].append(truth)
     folders: dict[str, list[Truth]] = {}
-    for run in sorted(found):
+    for run in sorted(samples_of):
         name = re.sub(r"[^A-Za-z0-9_-]+", "_", run) or "run"
         while name in folders:
             name += "_"
-        folders[name] = found[run]
+        folders[name] = samples_of[run]
     return folders
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...errors import input_error
 from ..areas import metres_per_degree
 from . import grib2
-from .grib2 import Field
+from .grib2 import GribField
 from .grid import Grid
 from .model import Model
 
@@ -63,7 +63,7 @@ def add(model: Model, paths: list[Path]) -> None:
     model.assumptions += notes
 
 
-def _read(model: Model, paths: list[Path]) -> tuple[list[Field], list[Field]]:
+def _read(model: Model, paths: list[Path]) -> tuple[list[GribField], list[GribField]]:
     """Read both components by valid time."""
     latitude, longitude = model.grid.latitude, model.grid.longitude
     if model.air is not None:
@@ -83,7 +83,7 @@ def _read(model: Model, paths: list[Path]) -> tuple[list[Field], list[Field]]:
     return east, north
 
 
-def _held(model: Model, fields: list[Field], seconds: NDArray[np.float64]) -> list[str]:
+def _held(model: Model, fields: list[GribField], seconds: NDArray[np.float64]) -> list[str]:
     """Describe the times of the run before and after all valid times, which have the first or last wind.
 
     Raises

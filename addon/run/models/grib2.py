@@ -31,7 +31,7 @@ _STEP = 1e-3  # degrees, step towards east in which the turn of the axes is meas
 
 
 @dataclass(frozen=True, eq=False)
-class Field:
+class GribField:
     """Field (ny, nx) at x (nx,) and y (ny,), m, around a box; NaN without data.
 
     Attributes
@@ -96,7 +96,7 @@ def is_grib(path: Path) -> bool:
     return head[:4] == b"GRIB" and head[7:] == b"\2"
 
 
-def read(paths: list[Path], elements: Collection[str], levels: Collection[str], box: Box) -> list[Field]:
+def read(paths: list[Path], elements: Collection[str], levels: Collection[str], box: Box) -> list[GribField]:
     """Read the fields of some elements and levels around a box, by valid time.
 
     Raises
@@ -105,7 +105,7 @@ def read(paths: list[Path], elements: Collection[str], levels: Collection[str], 
         A file is not GRIB2 or damaged, its grid is not projected or does not contain the box, or two fields
         have one valid time.
     """
-    fields: list[Field] = []
+    fields: list[GribField] = []
     for path in paths:
         heartbeat.sign()
         if not is_grib(path):
@@ -120,7 +120,7 @@ def read(paths: list[Path], elements: Collection[str], levels: Collection[str], 
     return fields
 
 
-def _fields(path: Path, elements: Collection[str], levels: Collection[str], box: Box) -> list[Field]:
+def _fields(path: Path, elements: Collection[str], levels: Collection[str], box: Box) -> list[GribField]:
     rasterio = optional_packages.package("rasterio")
     pyproj = optional_packages.package("pyproj")
     fields = []
@@ -144,7 +144,7 @@ def _fields(path: Path, elements: Collection[str], levels: Collection[str], box:
                 issued, valid = (_moment(path, tags, f"GRIB_{name}_TIME") for name in ("REF", "VALID"))
                 unit = tags.get("GRIB_UNIT", "").strip("[]")
                 values = values[rows, columns]
-                made = Field(
+                made = GribField(
                     path, element, level, unit, issued, valid, x, y, values, largest, along_grid, projection
                 )
                 fields.append(made)

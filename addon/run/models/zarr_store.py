@@ -66,7 +66,7 @@ def is_store(path: Path) -> bool:
         return False
 
 
-class File(netcdf.File):
+class ZarrFile(netcdf.File):
     """An open zarr store. Scale, offset and missing values are applied.
 
     Raises
@@ -121,7 +121,7 @@ def written(path: Path, names: list[str]) -> int:
     """
     if not path.is_dir():
         return sys.maxsize  # a ZIP archive is written at once
-    store = File(path)
+    store = ZarrFile(path)
     try:
         counts = [0]
         for name in names:

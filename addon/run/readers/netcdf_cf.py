@@ -138,7 +138,7 @@ def read(paths: list[Path], options: Options) -> Model:
 
 
 def _open(path: Path) -> netcdf.File:
-    return zarr_store.File(path) if zarr_store.is_store(path) else netcdf.File(path)
+    return zarr_store.ZarrFile(path) if zarr_store.is_store(path) else netcdf.File(path)
 
 
 def _mapping(path: Path | None) -> tuple[dict[str, dict[str, Any]], dict[str, str]]:

@@ -77,7 +77,7 @@ def build(
     time, eye = float(shot.frames.times[frame - 1]), path.position[frame - 1]
     lens = None
     if not all_around:
-        lens = flame_map.Lens(path.rotation[frame - 1], tuple(path.halves[frame - 1]))
+        lens = flame_map.ViewCone(path.rotation[frame - 1], tuple(path.halves[frame - 1]))
     squares = flame_map.squares(shot, eye, time, limit, lens)
     crowns = spindles(torches, time, eye) if torches is not None else np.empty((0, 6))
     if not len(crowns) and not any(square.length.any() for square in squares):

@@ -126,7 +126,7 @@ class Square:
 
 
 @dataclass(frozen=True)
-class Lens:
+class ViewCone:
     """View of a camera, for culling: its rotation (3, 3), and the tangents of half its angles of view."""
 
     rotation: Array
@@ -142,7 +142,7 @@ class Lens:
         return inside | (np.linalg.norm(offset, axis=-1) < 2.0 * radius)
 
 
-def squares(shot: Any, eye: Array, time: float, limit: float, lens: Lens | None = None) -> list[Square]:
+def squares(shot: Any, eye: Array, time: float, limit: float, lens: ViewCone | None = None) -> list[Square]:
     """Return the flames around a camera: nested squares, the finest first.
 
     Cells are about 1/128 of the distance, so the cost hardly grows with the limit. Values depend on place and
@@ -277,7 +277,7 @@ def _parts(spacing: float) -> Array:
 
 
 def _square(
-    shot: Any, eye: Array, time: float, spacing: float, inner: Any, lens: Lens | None
+    shot: Any, eye: Array, time: float, spacing: float, inner: Any, lens: ViewCone | None
 ) -> tuple[Square, tuple[Array, Array]]:
     """Return one square, and the corners of its inside; flames are left out within `inner` corners."""
     ground, tile = shot.ground, _TILE * spacing

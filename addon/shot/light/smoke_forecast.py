@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...errors import input_error
 from ...run import times
 from ...run.models import grib2
-from ...run.models.grib2 import Field
+from ...run.models.grib2 import GribField
 from ..schema import fields
 from ..sections.light import Light
 from .smoke_haze import extinction
@@ -77,7 +77,7 @@ def read(run: Run, paths: list[Path]) -> list[Smoke]:
     ]
 
 
-def _check(field: Field) -> None:
+def _check(field: GribField) -> None:
     """Check unit and values.
 
     Raises

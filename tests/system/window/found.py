@@ -179,7 +179,7 @@ def _entries(menus: object) -> Iterator[tuple[str, str]]:
     """Yield the text to type after F3, and the operator, of every entry of the menu Firetwin."""
     for title, lines in menus.MENUS.items():
         for line in lines:
-            own = isinstance(line, menus.Entry)
+            own = isinstance(line, menus.MenuEntry)
             operator = line.operator if own else _INSIDE.get(line.name)
             if operator is not None:
                 text = menus.entry_text(line) if own else line.text
@@ -214,7 +214,7 @@ def pie() -> Iterator[object]:
     with StandIns() as stand_ins:
         for line, number in zip(menus.PIE, "46287913", strict=True):
             menu = menus.pie_menu_name(line)
-            operator = line.operator if isinstance(line, menus.Entry) else _INSIDE[line.name]
+            operator = line.operator if isinstance(line, menus.MenuEntry) else _INSIDE[line.name]
             stand_ins.called.clear()
             keys("ctrl+alt+f")
             yield 1

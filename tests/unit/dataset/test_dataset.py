@@ -94,13 +94,13 @@ def read_mask(path: Path):
         packed += part if kind == b"IDAT" else b""
         place += length + 12
     rows = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, width + 1)
-    above, found = np.zeros(width, np.uint8), []
+    above, unfiltered = np.zeros(width, np.uint8), []
     for row in rows:
         pixels = row[1:]
         assert row[0] in (0, 1, 2)
         pixels = {0: pixels, 1: np.cumsum(pixels, dtype=np.uint8), 2: pixels + above}[int(row[0])]
-        found.append(above := pixels)
-    return np.array(found)
+        unfiltered.append(above := pixels)
+    return np.array(unfiltered)
 
 
 def test_the_files_hold_millimetres_and_static_pixels(tmp_path):

@@ -30,13 +30,13 @@ def drawn(*annotations, **more):
 
 
 def test_a_mask_is_tinted_and_its_box_is_drawn_on_its_outermost_pixels():
-    found = drawn(annotation(1, truth.FIRE, (40.0, 30.0, 60.0, 50.0)))
-    assert tuple(found[40, 50]) == tuple(round(0.25 * value) for value in FIRE)
+    picture = drawn(annotation(1, truth.FIRE, (40.0, 30.0, 60.0, 50.0)))
+    assert tuple(picture[40, 50]) == tuple(round(0.25 * value) for value in FIRE)
     for at in ((30, 40), (49, 59), (30, 59), (49, 40)):
-        assert tuple(found[at]) == FIRE
-    assert not found[29, 39:61].any()
-    assert not found[:29].any()
-    assert found[50:, 40:].any()  # the caption of fire is below its box
+        assert tuple(picture[at]) == FIRE
+    assert not picture[29, 39:61].any()
+    assert not picture[:29].any()
+    assert picture[50:, 40:].any()  # the caption of fire is below its box
 
 
 def test_neighbours_have_a_line_between_them():

@@ -148,13 +148,13 @@ def test_flames_behind_smoke_have_a_visible_fraction_and_an_amodal_box():
 def test_small_and_hidden_instances_are_only_in_the_metadata():
     small, large, hidden = block((10, 13), (10, 15)), block((60, 64), (60, 64)), block((200, 230), (200, 250))
     sample = burning(plain_samples.plane(CAMERA), small | large | hidden, hidden)
-    found, drawn = labels.label(sample, PLACE, 1)
-    assert [(each.id, each.pixels) for each in found.annotations] == [(1, 16)]
-    assert [(each.id, each.pixels) for each in found.below_size] == [(2, 15), (3, 0)]
-    assert found.below_size[1].box == (0.0, 0.0, 0.0, 0.0)
-    assert found.below_size[1].amodal_box == (200.0, 200.0, 250.0, 230.0)
+    label, drawn = labels.label(sample, PLACE, 1)
+    assert [(each.id, each.pixels) for each in label.annotations] == [(1, 16)]
+    assert [(each.id, each.pixels) for each in label.below_size] == [(2, 15), (3, 0)]
+    assert label.below_size[1].box == (0.0, 0.0, 0.0, 0.0)
+    assert label.below_size[1].amodal_box == (200.0, 200.0, 250.0, 230.0)
     assert set(np.unique(drawn.amodal)) == {0, 1}
-    assert not found.is_negative
+    assert not label.is_negative
 
 
 def test_at_most_255_instances_have_boxes():
@@ -221,13 +221,13 @@ def test_the_pose_of_the_file_projects_a_landmark_to_its_pixel():
 
 def test_a_sample_without_fire_is_a_negative_with_a_horizon():
     place = replace(PLACE, ignition=None)
-    found, drawn = labels.label(plain_samples.plane(CAMERA), place, 8)
-    assert found.is_negative
-    assert found.index == 8
-    assert found.seconds_since_ignition is None
-    assert found.front == []
-    assert found.front_geojson is None
-    assert len(found.horizon) == 1
+    label, drawn = labels.label(plain_samples.plane(CAMERA), place, 8)
+    assert label.is_negative
+    assert label.index == 8
+    assert label.seconds_since_ignition is None
+    assert label.front == []
+    assert label.front_geojson is None
+    assert len(label.horizon) == 1
     assert not drawn.smoke.any()
 
 
@@ -240,9 +240,9 @@ def test_masks_boxes_and_counts_agree(tmp_path_factory, smoke, fire, hidden):
     camera = plain_samples.looking(-3.0, size=(128, 96))
     smoke, fire, hidden = (np.kron(each, np.ones((4, 4), bool)) for each in (smoke, fire, hidden))
     sample = burning(smoky(plain_samples.plane(camera), smoke, 0.3, 900.0), fire, hidden & fire)
-    found, drawn = labels.label(sample, PLACE, 1)
-    assert [each.id for each in found.annotations] == list(range(1, len(found.annotations) + 1))
-    for each in found.annotations:
+    label, drawn = labels.label(sample, PLACE, 1)
+    assert [each.id for each in label.annotations] == list(range(1, len(label.annotations) + 1))
+    for each in label.annotations:
         for mask, box, pixels in (
             (drawn.visible_pixels(each), each.box, each.pixels),
             (drawn.amodal_pixels(each), each.amodal_box, each.amodal_pixels),
@@ -253,8 +253,8 @@ def test_masks_boxes_and_counts_agree(tmp_path_factory, smoke, fire, hidden):
         assert 0.0 < each.visible_fraction <= 1.0
     assert ((drawn.fire == 0) | (drawn.fire == drawn.amodal)).all()
     again, masks_again = labels.label(sample, PLACE, 1)
-    assert again == found
+    assert again == label
     assert np.array_equal(masks_again.amodal, drawn.amodal)
     folder = tmp_path_factory.mktemp("set")
-    truth.write(folder, found)
-    assert truth.read(folder, 1) == found
+    truth.write(folder, label)
+    assert truth.read(folder, 1) == label

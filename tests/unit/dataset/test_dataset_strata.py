@@ -30,8 +30,8 @@ def test_each_prefix_has_the_shares_of_the_plan(seed, positives, night, runs, ca
         cameras=dict(zip(CAMERAS, cameras, strict=True)),
     )
     known = Strata(plan)
-    found = [known.of(index) for index in range(1, COUNT + 1)]
-    assert Strata(plan).of(COUNT) == found[-1]
+    strata = [known.of(index) for index in range(1, COUNT + 1)]
+    assert Strata(plan).of(COUNT) == strata[-1]
     least_night = (1.0 - positives) / 7.0
     shares = {
         "run": {f"r{k}": weight / sum(runs) for k, weight in enumerate(runs)},
@@ -41,7 +41,7 @@ def test_each_prefix_has_the_shares_of_the_plan(seed, positives, night, runs, ca
     }
     for factor, wanted in shares.items():
         seen = Counter()
-        for number, stratum in enumerate(found, start=1):
+        for number, stratum in enumerate(strata, start=1):
             seen[getattr(stratum, factor)] += 1
             off = {name: abs(seen[name] - number * share) for name, share in wanted.items()}
             assert max(off.values()) < 2.0, (factor, number, off)

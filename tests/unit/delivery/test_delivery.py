@@ -21,7 +21,7 @@ VIEWS = ("drone", "drone@slower", "ir-2")
 def finished(tmp_path):
     """Return a folder of finished files of three views, made up."""
     out = tmp_path / "film"
-    with Store(out, create=True) as made:
+    with Store(out, create=True) as film_store:
         for camera in VIEWS:
             entries = {}
             for frame in (1, 2, 3):
@@ -33,8 +33,8 @@ def finished(tmp_path):
                 (out / path).parent.mkdir(parents=True, exist_ok=True)
                 (out / path).write_bytes(path.encode())
                 entries[path] |= store.describe(out / path)
-            made.add({"run": 1}, entries)
-        made.export()
+            film_store.add({"run": 1}, entries)
+        film_store.export()
     return out
 
 
@@ -45,19 +45,19 @@ def deliver(*words):
 def test_a_version_has_all_files_and_matches_its_hashes(finished, tmp_path, capsys):
     out = tmp_path / "delivered"
     assert deliver(finished, "--out", out) == 0
-    made = out / "v001"
-    assert capsys.readouterr().out.strip() == str(made)
-    assert (made / "drone/rgb/drone_rgb.1001.exr").read_bytes() == b"drone/rgb/drone_rgb_000001.exr"
-    assert (made / "drone_at_slower/rgb/drone_at_slower_rgb.mp4").is_file()
+    delivered = out / "v001"
+    assert capsys.readouterr().out.strip() == str(delivered)
+    assert (delivered / "drone/rgb/drone_rgb.1001.exr").read_bytes() == b"drone/rgb/drone_rgb_000001.exr"
+    assert (delivered / "drone_at_slower/rgb/drone_at_slower_rgb.mp4").is_file()
     done = subprocess.run(
         ["sha256sum", "-c", "SHA256SUMS"], cwd=out / "latest", capture_output=True, text=True
     )
     assert (done.returncode, done.stdout.count(": OK")) == (0, 3 * (3 * 2 + 2))
-    assert (made / "drone/rgb_clean/drone_rgb_clean.mp4").read_bytes() == b"drone/drone_rgb_clean.mp4"
-    listed = json.loads((made / "manifest.json").read_text())["files"]
+    assert (delivered / "drone/rgb_clean/drone_rgb_clean.mp4").read_bytes() == b"drone/drone_rgb_clean.mp4"
+    listed = json.loads((delivered / "manifest.json").read_text())["files"]
     entry = listed["ir-2/rgb/ir-2_rgb.1003.png"]
     assert (entry["frame"], entry["number"], entry["source"]) == (3, 1003, "ir-2/rgb/ir-2_rgb_000003.png")
-    sequence = fileseq.findSequencesOnDisk(str(made / "drone_at_slower/rgb"))
+    sequence = fileseq.findSequencesOnDisk(str(delivered / "drone_at_slower/rgb"))
     exr = next(each for each in sequence if each.extension() == ".exr")
     assert (exr.start(), exr.end(), fileseq.FileSequence(str(exr)).basename()) == (
         1001,
@@ -135,13 +135,13 @@ def test_missing_files_are_named_and_an_empty_folder_is_refused(finished, tmp_pa
 
 def test_a_file_that_its_exr_names_keeps_its_name(tmp_path):
     out = tmp_path / "film"
-    with Store(out, create=True) as made:
+    with Store(out, create=True) as film_store:
         paths = Picture("drone", 1, "data").files()
         (out / paths[0]).parent.mkdir(parents=True)
         for path in paths:
             (out / path).write_bytes(b"content")
         facts = {"camera": "drone", "pass": "data", "frame": 1}
-        made.add({"run": 1}, {path: facts | store.describe(out / path) for path in paths})
-        made.export()
+        film_store.add({"run": 1}, {path: facts | store.describe(out / path) for path in paths})
+        film_store.export()
     found = {each.pattern for each in names.choose(out, PATTERN, 1001).files}
     assert found == {"drone/data/drone_data.1001.exr", "drone/data/drone_data_000001.json"}

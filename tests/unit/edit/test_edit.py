@@ -54,12 +54,12 @@ def rendered(make_run, tmp_path):
         cameras = (CAMERA.format(name, PANORAMA * (name == "all-round")) for name in FRAMES)
         scene.write_text(SCENE.replace("FPS", fps) + "".join(cameras))
         (tmp_path / "places.csv").write_text("name,latitude,longitude\nHere,38.903,-120.592\nFar,38,-121\n")
-        with Store(out, create=True) as made:
+        with Store(out, create=True) as film_store:
             for camera, frames in FRAMES.items():
                 names = ("rgb", "comp") if camera != "chase-2" else ("rgb",)
                 for name in names:
                     _add(
-                        made,
+                        film_store,
                         {"run": 1},
                         camera,
                         name,
@@ -72,24 +72,24 @@ def rendered(make_run, tmp_path):
                         "fps": rate,
                         "frames": [[f, ""] for f in frames],
                     }
-                    _add(made, made_from, camera, "rgb", {film(camera, "rgb", kind): None}, film=kind)
-            made.export()
+                    _add(film_store, made_from, camera, "rgb", {film(camera, "rgb", kind): None}, film=kind)
+            film_store.export()
         return scene
 
     return write
 
 
-def _add(made, settings, camera, name, frames, **more):
+def _add(film_store, settings, camera, name, frames, **more):
     for path in frames:
-        (made.out / path).parent.mkdir(parents=True, exist_ok=True)
-        (made.out / path).write_bytes(b"")
+        (film_store.out / path).parent.mkdir(parents=True, exist_ok=True)
+        (film_store.out / path).write_bytes(b"")
     entries = {
         path: {"camera": camera, "pass": name, **more}
         | ({} if frame is None else {"frame": frame})
-        | store.describe(made.out / path)
+        | store.describe(film_store.out / path)
         for path, frame in frames.items()
     }
-    made.add(settings | {"camera": camera}, entries)
+    film_store.add(settings | {"camera": camera}, entries)
 
 
 def played(timeline, key="DEFAULT_MEDIA"):

@@ -80,7 +80,7 @@ def request_(make_run, tmp_path):
 
 
 @pytest.fixture
-def made(request_):
+def exported(request_):
     gis.write(request_)
     return request_.folder
 
@@ -96,8 +96,8 @@ def shape(blob):
     return shapely.from_wkb(blob[8 + 32 :])
 
 
-def test_a_camera_is_where_the_scene_has_it_in_earth_centred_metres(made, request_):
-    (line, begin, end), *more = rows(made, "SELECT geom, begin_time, end_time FROM camera_paths")
+def test_a_camera_is_where_the_scene_has_it_in_earth_centred_metres(exported, request_):
+    (line, begin, end), *more = rows(exported, "SELECT geom, begin_time, end_time FROM camera_paths")
     assert not more
     points = shapely.get_coordinates(shape(line), include_z=True, include_m=True)
     expected = request_.georeference.ecef(request_.shot.paths[0].position)
@@ -106,47 +106,47 @@ def test_a_camera_is_where_the_scene_has_it_in_earth_centred_metres(made, reques
     np.testing.assert_allclose(np.diff(points[:, 3]), 30.0)
     assert points[0, 3] == request_.shot.utc(1).timestamp()
     assert (begin, end) == ("2014-09-17T04:45:30.000Z", "2014-09-17T04:47:00.000Z")
-    frames, blobs = zip(*rows(made, "SELECT frame, geom FROM camera_frames"), strict=True)
+    frames, blobs = zip(*rows(exported, "SELECT frame, geom FROM camera_frames"), strict=True)
     assert frames == (1, 2, 3, 4)
     single = shapely.get_coordinates([shape(each) for each in blobs], include_z=True)
     np.testing.assert_array_equal(single, points[:, :3])
 
 
-def test_burned_areas_are_the_areas_within_the_fronts(made, request_):
-    found = rows(made, "SELECT a.geom, f.geom, a.area_ha FROM burned_area a JOIN fronts f USING (fid)")
-    assert len(found) >= 3
-    for area, line, _ in found:
+def test_burned_areas_are_the_areas_within_the_fronts(exported, request_):
+    areas = rows(exported, "SELECT a.geom, f.geom, a.area_ha FROM burned_area a JOIN fronts f USING (fid)")
+    assert len(areas) >= 3
+    for area, line, _ in areas:
         polygons = shape(area)
         assert polygons.is_valid
         assert polygons.boundary.equals(shapely.normalize(shape(line)))
-    assert shape(found[-1][0]).area * 111_000.0 * 86_700.0 / 1e4 == pytest.approx(found[-1][2], rel=0.2)
-    times = rows(made, "SELECT begin_time, end_time FROM fronts ORDER BY begin_time")
+    assert shape(areas[-1][0]).area * 111_000.0 * 86_700.0 / 1e4 == pytest.approx(areas[-1][2], rel=0.2)
+    times = rows(exported, "SELECT begin_time, end_time FROM fronts ORDER BY begin_time")
     assert [end for _, end in times] == [*(begin for begin, _ in times[1:]), None]
 
 
-def test_names_and_divisions_are_values(made):
-    assert (HOSTILE,) in rows(made, "SELECT name FROM places")
-    assert rows(made, "SELECT kind, category, division, held FROM divisions") == [
+def test_names_and_divisions_are_values(exported):
+    assert (HOSTILE,) in rows(exported, "SELECT name FROM places")
+    assert rows(exported, "SELECT kind, category, division, held FROM divisions") == [
         ("control_line", "Planned Line", "A", 1)
     ]
-    assert rows(made, "SELECT category FROM division_breaks") == [("Division Break",)]
+    assert rows(exported, "SELECT category FROM division_breaks") == [("Division Break",)]
 
 
-def test_our_own_reader_finds_the_fronts(made):
-    read = observations.features(made / gis.GEOPACKAGE)
+def test_our_own_reader_finds_the_fronts(exported):
+    read = observations.features(exported / gis.GEOPACKAGE)
     assert any(each.polygons for each in read)
 
 
-def test_the_maps_have_the_values_of_the_run_where_it_has_them(made, request_):
+def test_the_maps_have_the_values_of_the_run_where_it_has_them(exported, request_):
     run = request_.shot.run
     for name, values in {"arrival": run.fuel_arrival_time(), "fuel": run.surface_fuel}.items():
-        with rasterio.open(made / "maps" / f"{name}.tif") as raster:
+        with rasterio.open(exported / "maps" / f"{name}.tif") as raster:
             assert raster.crs.to_epsg() == 4326
             assert raster.tags(ns="IMAGE_STRUCTURE")["LAYOUT"] == "COG"
             longitude, latitude = np.meshgrid(run.fuel_longitude, run.fuel_latitude)
             found = np.array([*raster.sample(np.column_stack([longitude.ravel(), latitude.ravel()]))])
             np.testing.assert_array_equal(found[:, 0], np.asarray(values, np.float32).ravel())
-    with rasterio.open(made / "maps" / "burned.tif") as raster:
+    with rasterio.open(exported / "maps" / "burned.tif") as raster:
         first, last = raster.read(1), raster.read(raster.count)
         assert raster.descriptions[0] == "2014-09-17T04:45:00Z"
     assert last.sum() == (np.asarray(run.fuel_arrival_time()) <= 120.0).sum() > first.sum()
@@ -175,25 +175,25 @@ def test_the_smoke_column_is_the_integral_over_height():
     np.testing.assert_allclose(gis_rasters._smoke_column(Air, 30.0), 0.06 * 500.0)
 
 
-def test_the_project_names_existing_layers_once(made):
-    root = ET.parse(made / gis.PROJECT).getroot()
+def test_the_project_names_existing_layers_once(exported):
+    root = ET.parse(exported / gis.PROJECT).getroot()
     assert root.findtext("title") == "Small <&>"
     layers = root.findall("projectlayers/maplayer")
     keys = [layer.findtext("id") for layer in layers]
     assert len(set(keys)) == len(keys) >= 9
     assert min(map(len, keys)) >= 10  # QGIS renames shorter ones
-    tables = {name for (name,) in rows(made, "SELECT table_name FROM gpkg_geometry_columns")}
+    tables = {name for (name,) in rows(exported, "SELECT table_name FROM gpkg_geometry_columns")}
     for layer in layers:
         file, _, table = layer.findtext("datasource").partition("|layername=")
-        assert (made / file).is_file()
+        assert (exported / file).is_file()
         assert not table or table in tables
     assert root.find("ProjectTimeSettings/TemporalRange/start").text == "2014-09-17T04:45:30Z"
 
 
-def test_styles_are_in_files_and_in_the_geopackage_with_the_colours_of_the_standard(made):
-    for name, text in rows(made, "SELECT f_table_name, styleQML FROM layer_styles"):
-        assert (made / "styles" / f"{name}.qml").read_text() == text
-    fronts = ET.parse(made / "styles" / "fronts.qml").getroot()
+def test_styles_are_in_files_and_in_the_geopackage_with_the_colours_of_the_standard(exported):
+    for name, text in rows(exported, "SELECT f_table_name, styleQML FROM layer_styles"):
+        assert (exported / "styles" / f"{name}.qml").read_text() == text
+    fronts = ET.parse(exported / "styles" / "fronts.qml").getroot()
     red = ",".join(str(int(map_symbols.FIRE_EDGE[i : i + 2], 16)) for i in (1, 3, 5))
     colours = [each.get("value") for each in fronts.iter("Option") if each.get("name") == "line_color"]
     assert colours[-1] == f"{red},255"
@@ -201,8 +201,10 @@ def test_styles_are_in_files_and_in_the_geopackage_with_the_colours_of_the_stand
 
 
 @pytest.mark.skipif(not shutil.which("ogrinfo"), reason="needs ogrinfo of GDAL")
-def test_gdal_reads_the_dates_and_dimensions(made):
-    ended = subprocess.run(["ogrinfo", "-so", "-al", made / gis.GEOPACKAGE], capture_output=True, text=True)
+def test_gdal_reads_the_dates_and_dimensions(exported):
+    ended = subprocess.run(
+        ["ogrinfo", "-so", "-al", exported / gis.GEOPACKAGE], capture_output=True, text=True
+    )
     assert ended.returncode == 0
     assert "ERROR" not in ended.stderr + ended.stdout
     assert "begin_time: DateTime" in ended.stdout

@@ -106,7 +106,7 @@ def test_flames_change_little_in_a_moment(make_run):
 def test_a_lens_leaves_out_flames_behind_the_camera(make_run):
     shot = shot_of(make_run, 20.0, 2.0)
     ahead = np.column_stack([(0.0, -1.0, 0.0), (0.0, 0.0, 1.0), (-1.0, 0.0, 0.0)])  # looks east
-    lens = flame_map.Lens(ahead, (0.5, 0.3))
+    lens = flame_map.ViewCone(ahead, (0.5, 0.3))
     eye, time = np.array([200.0, 0.0, 3.0]), 300.0
     assert any(square.length.any() for square in flame_map.squares(shot, eye, time, 400.0))
     assert not any(square.length.any() for square in flame_map.squares(shot, eye, time, 400.0, lens))

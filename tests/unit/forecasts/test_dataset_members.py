@@ -70,18 +70,18 @@ def test_members_that_do_not_exist_have_a_line_and_a_remedy(read, before, after,
 
 
 def test_members_are_converted_once(read, monkeypatch):
-    plan, made = read(PLAN), []
+    plan, conversions = read(PLAN), []
 
     def convert(paths, out, **named):
         out.mkdir()
-        made.append((paths[0].name, named["member"]))
+        conversions.append((paths[0].name, named["member"]))
 
     monkeypatch.setattr(members.job, "run", convert)
     plan.runs[1].run.mkdir(parents=True)
     members.convert(plan)
-    assert made == [("E", "00"), ("E", "02"), ("E2", "02")]
+    assert conversions == [("E", "00"), ("E", "02"), ("E2", "02")]
     members.convert(plan)
-    assert len(made) == 3
+    assert len(conversions) == 3
 
 
 def test_the_record_of_a_member_has_no_path_of_this_machine(read, monkeypatch, tmp_path):

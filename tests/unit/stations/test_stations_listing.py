@@ -73,7 +73,7 @@ def field():
     """A slope up to the east, and a fire that runs north a row in a minute, but not in the last column."""
     arrival = np.repeat(60.0 * np.arange(50.0)[:, None], 40, axis=1)
     arrival[:, -1] = np.nan
-    return picture.Field(
+    return picture.RunTerrain(
         np.linspace(38.8, 38.9, 50),
         np.linspace(-120.6, -120.5, 40),
         np.tile(np.arange(40.0), (50, 1)),

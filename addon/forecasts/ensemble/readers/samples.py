@@ -145,7 +145,7 @@ class _File:
     def of(cls, path: Path, variable: str) -> _File:
         """Open the array of a NumPy file, a netCDF file or a zarr store."""
         if netcdf.is_netcdf(path) or zarr_store.is_store(path):
-            opened = netcdf.File(path) if netcdf.is_netcdf(path) else zarr_store.File(path)
+            opened = netcdf.File(path) if netcdf.is_netcdf(path) else zarr_store.ZarrFile(path)
             return cls(opened.shape(variable), lambda *at: opened.read(variable, *at))
         with reading(path, "NumPy file"):
             if path.suffix == ".npy":
