@@ -1,5 +1,7 @@
 """A film by Slurm on two nodes of this machine: equal to one process, despite faults of nodes and tasks."""
 
+import subprocess
+
 import pytest
 from farm_film import ended, firetwin, pictures, rendered, until, without
 from loopback_slurm import Slurm, UnavailableError, unpacked
@@ -80,3 +82,22 @@ def test_a_long_film_with_a_task_whose_time_runs_out_is_that_of_one_process(slur
     assert sorted(ended(out)) == [0, 0, 0, 143]
     assert pictures(out) == pictures(one)  # with the two films
     assert len(rendered(out)) == len(set(rendered(out))) == (24 + 23) * 3
+
+
+def test_a_full_disk_of_a_node_loses_nothing(slurm, film, tasks, tmp_path):
+    out = without(tasks, tmp_path / "out", 2, 3)
+    disk = slurm.disk("n0")
+    mount = ["mount", "-t", "tmpfs", "-o", "size=24k", "tmpfs", disk]
+    if subprocess.run(mount, capture_output=True).returncode:
+        pytest.skip("a small disk cannot be mounted here")
+    try:
+        firetwin("farm", "resume", out, environment=slurm.environment)
+        until(lambda: 75 in ended(out))
+        subprocess.run(["mount", "-o", "remount,size=64m", disk], check=True)
+        slurm.wait()
+    finally:
+        subprocess.run(["umount", disk], check=True)
+    assert sorted(ended(out))[:4] == [0] * 4
+    assert set(ended(out)) == {0, 75}
+    assert pictures(out) == pictures(film[1])
+    assert len(rendered(out)) == len(set(rendered(out))) == 21
