@@ -60,7 +60,7 @@ def find_commands() -> dict[str, Command]:
     """Find the commands of this installation, by name: of `commands`, and of each feature's folder."""
     from . import commands
 
-    own = [each.COMMAND for each in plugins.of_rooms("command") if hasattr(each, "COMMAND")]
+    own = [each.COMMAND for each in plugins.of_features("command") if hasattr(each, "COMMAND")]
     every = [*plugins.values(commands.__name__, "COMMAND").values(), *own]
     return {each.name: each for each in sorted(every, key=lambda each: (each.subject, each.name))}
 
@@ -68,7 +68,9 @@ def find_commands() -> dict[str, Command]:
 @functools.cache
 def find_extensions(command: str) -> tuple[Extension, ...]:
     """Find the extensions of a command, in each feature's folder."""
-    every = (each for room in plugins.of_rooms("command") for each in getattr(room, "EXTENSIONS", ()))
+    every = (
+        each for feature in plugins.of_features("command") for each in getattr(feature, "EXTENSIONS", ())
+    )
     return tuple(each for each in every if each.command == command)
 
 

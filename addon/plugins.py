@@ -1,6 +1,6 @@
 """Plugins: modules found in folders, so that a new one needs no list; names of helpers begin with "_".
 
-The number `ORDER` of a module, 0 without one, decides its rank; modules of one rank are in order of names.
+The number `ORDER` of a module decides its rank: 0 without one. Modules of one rank are in order of names.
 """
 
 from __future__ import annotations
@@ -33,15 +33,15 @@ def values(package: str, constant: str) -> dict[str, Any]:
     return {name: getattr(each, constant) for name, each in modules(package).items()}
 
 
-def of_rooms(name: str) -> tuple[ModuleType, ...]:
+def of_features(name: str) -> tuple[ModuleType, ...]:
     """Import the module or package `name` of each feature that has it, such as ``panel``.
 
     A feature is a folder with ``command.py``.
     """
-    package, rooms = str(__package__), sorted(Path(__file__).parent.glob("*/command.py"))
+    package, features = str(__package__), sorted(Path(__file__).parent.glob("*/command.py"))
     having = (
         each.parent
-        for each in rooms
+        for each in features
         if any(map(Path.exists, (each.with_name(name), each.with_name(f"{name}.py"))))
     )
     return tuple(module(f"{package}.{each.name}", name) for each in having)

@@ -175,8 +175,9 @@ validates a scene file. Former names of sections and keys are read with a note; 
 
 PASSES = """\
 A pass is a kind of picture that a camera records. `[render] passes` lists the passes of all
-cameras; the `passes` of a camera override it. Each file in `addon/passes/` defines one pass. EXR files
-have 32 bits per value; the EXR of `rgb` has 16 and is scene-linear. [EXR files](delivery.md#exr-files) lists
+cameras; the `passes` of a camera override it. Each file in `addon/passes/`, or in `passes/` of a
+feature, defines one pass. EXR files have 32 bits per value; the EXR of `rgb` has 16 and is
+scene-linear. [EXR files](delivery.md#exr-files) lists
 their attributes.
 
 AgX is Blender's view transform: it maps scene-linear radiance to the colours of a screen, and desaturates

@@ -35,7 +35,7 @@ def run(
     """
     job = plan.read(out)
     choice = task.job_source(job, out, scene)
-    if job.room:
+    if job.feature:
         if not (unfinished := divided.missing(job, out)):
             divided.work(job).finish(Path(choice.scene), out)
         return unfinished

@@ -1,4 +1,4 @@
-"""Work of other rooms that a farm divides: a room can have a module `farm_work`, which declares how.
+"""Work of other features that a farm divides: a feature can have a module `farm_work`, which declares how.
 
 ``sniff(path)`` recognises the file that describes the work. ``split(path, out)`` returns the number of units
 and lists of those that are made together, ``make(path, out, units)`` makes the units of a list such as
@@ -20,18 +20,18 @@ from .plan import Job, Task
 
 
 def find(path: Path) -> str:
-    """Return the room whose work a file describes; "" for a scene file or a run."""
-    return next((room for room, work in _works().items() if work.sniff(path)), "")
+    """Return the feature whose work a file describes; "" for a scene file or a run."""
+    return next((feature for feature, work in _works().items() if work.sniff(path)), "")
 
 
 def work(job: Job) -> ModuleType:
-    """Return the module of the room of a job."""
-    return _works()[job.room]
+    """Return the module of the feature of a job."""
+    return _works()[job.feature]
 
 
-def make_job(room: str, path: Path, out: Path, size: int) -> Job:
+def make_job(feature: str, path: Path, out: Path, size: int) -> Job:
     """Divide work into tasks of at most `size` units, or of the units that are made together."""
-    module = _works()[room]
+    module = _works()[feature]
     count, groups = module.split(path, out)
     tasks: list[list[int]] = []
     for units in groups:
@@ -48,7 +48,7 @@ def make_job(room: str, path: Path, out: Path, size: int) -> Job:
         passes={module.UNIT: (module.KIND,)},
         tasks=tuple(Task("render", (module.UNIT,), FrameList.of(sorted(each))) for each in tasks),
         assets=(),
-        room=room,
+        feature=feature,
     )
 
 
@@ -60,4 +60,4 @@ def missing(job: Job, out: Path) -> dict[Picture, str]:
 
 
 def _works() -> dict[str, ModuleType]:
-    return {each.__name__.split(".")[-2]: each for each in plugins.of_rooms("farm_work")}
+    return {each.__name__.split(".")[-2]: each for each in plugins.of_features("farm_work")}

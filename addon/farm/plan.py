@@ -69,7 +69,7 @@ class Job:
         Bake tasks, then render tasks.
     assets
         Files that tasks read (absolute paths).
-    room
+    feature
         Room whose work the file `scene` describes, with its units as frames (see `divided`); "" for a film.
     """
 
@@ -81,7 +81,7 @@ class Job:
     passes: dict[str, tuple[str, ...]]
     tasks: tuple[Task, ...]
     assets: tuple[str, ...]
-    room: str = ""
+    feature: str = ""
 
     def numbers(self, stage: str) -> list[int]:
         """List the numbers of the tasks of a stage."""

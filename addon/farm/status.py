@@ -136,7 +136,7 @@ def _made(job: Job, number: int, tried: list[Attempt], there: _FolderListings) -
     finished_files = every = lacking = 0
     if task.stage != "render":
         return 0, 0, 0
-    if job.room:
+    if job.feature:
         asked = FrameList(task.frames).frames(job.count)
         lacking = len(divided.work(job).missing(there.out, asked))
         return len(asked) - lacking, len(asked), lacking

@@ -67,7 +67,7 @@ def last_submission(out: Path) -> Submission:
 def find_missing(out: Path, progress: Progress = silent) -> tuple[dict[Picture, str], list[int]]:
     """Find missing and damaged pictures, each with the reason, and the numbers of their tasks."""
     job = plan.read(out)
-    if job.room:
+    if job.feature:
         missing = divided.missing(job, out)
         return missing, assemble.tasks_of_pictures(job, missing)
     shot = task.job_source(job, out).shot()

@@ -112,7 +112,7 @@ def _logged(log: Log, work: Callable[[], None]) -> None:
 def _task(job: Job, choice: ShotSource, out: Path, number: int, log: Log, progress: Progress) -> None:
     task = job.task(number)
     print(f"openjd_status: {task.stage} {' and '.join(task.cameras)}, frames {task.frames}", flush=True)
-    if job.room:
+    if job.feature:
         divided.work(job).make(Path(choice.scene), out, task.frames)
     elif task.stage == "bake":
         _bake(job, choice, task, progress)

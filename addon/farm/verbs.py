@@ -33,10 +33,10 @@ def run(arguments: argparse.Namespace) -> int | None:
 
 
 def run_plan(arguments: argparse.Namespace) -> None:
-    """Plan a film or the work of another room; print the command that submits it, or run that command."""
+    """Plan a film or the work of another feature; print the command that submits it, or run that command."""
     out, size = arguments.out.absolute(), arguments.chunk or plan.CHUNK
-    if room := divided.find(arguments.scene):
-        job = divided.make_job(room, arguments.scene.absolute(), out, size)
+    if feature := divided.find(arguments.scene):
+        job = divided.make_job(feature, arguments.scene.absolute(), out, size)
     else:
         choice = fitted_scene.find_source(arguments)
         shot = choice.shot()

@@ -170,7 +170,7 @@ def _compare(
     elif len(undone) < len(wanted):
         tell(finished)
     if differing:
-        tell(f"finished pictures are rendered again; they differ in {changes.join_names(differing)}")
+        tell(f"finished pictures are rendered again: {changes.join_names(differing)}")
     if filming:
         tell(changes.describe_films(filming))
     return undone, filming

@@ -15,13 +15,13 @@ from .store import Store
 
 _NAMED = 3  # names in a list
 _PARTS = {
-    "sources": "code",
     "run": "run",
     "beside": "comparison runs",
     "tiles": "tiles",
     "credits": "credits",
     "given": "sensors of the mount",
     "leader": "followed camera",
+    "further": "other files of the scene",
 }
 """Inputs of a picture that are named as a part."""
 
@@ -31,8 +31,9 @@ def of_picture(before: dict[str, Any], now: dict[str, Any]) -> list[str]:
     old, new = before.get("versions", {}), now.get("versions", {})
     found = [f"version of {name.title()}" for name in new if new[name] != old.get(name)]
     found += [name for part, name in _PARTS.items() if before.get(part) != now.get(part)]
-    if names := _differing(before.get("settings", {}), now.get("settings", {})):
-        found.append(f"settings ({join_names(names)})")
+    for part, name in (("sources", "code"), ("settings", "settings")):
+        if names := _differing(before.get(part, {}), now.get(part, {})):
+            found.append(f"{name} ({join_names(names)})")
     return found
 
 
@@ -41,12 +42,12 @@ def of_pictures(store: Store, pictures: Iterable[Picture], made_with: Fingerprin
     first: dict[tuple[str, str], Picture] = {}
     for picture in pictures:
         first.setdefault((picture.camera, picture.name), picture)
-    found = [
-        of_picture(before, made_with[which])
+    reasons = [
+        of_picture(before, made_with[which]) or ["missing or damaged files"]
         for which, picture in first.items()
         if (before := store.inputs_of(picture.files()[0]))
     ]
-    return list(dict.fromkeys(itertools.chain(*found)))
+    return list(dict.fromkeys(itertools.chain(*reasons)))
 
 
 def of_film(before: dict[str, Any] | None, now: dict[str, Any]) -> list[str]:

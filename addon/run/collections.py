@@ -1,7 +1,7 @@
 """Collections of runs, such as ensembles: each run has a name, and can be converted to a run folder.
 
-A room's ``run_collection.py`` reads one kind. It has ``sniff(path)``, ``names(path)``, the names of the runs,
-and ``read(paths, options, name) -> Model``, where the paths are a collection and rasters of its terrain.
+A feature's ``run_collection.py`` reads one kind. It has ``sniff(path)``, ``names(path)``, the names of the
+runs, and ``read(paths, options, name) -> Model``, where the paths are a collection and its terrain's rasters.
 """
 
 from __future__ import annotations
@@ -48,4 +48,4 @@ def read(paths: list[Path], options: Options, name: str) -> Model:
 
 
 def _kind(path: Path) -> ModuleType | None:
-    return next((each for each in plugins.of_rooms("run_collection") if each.sniff(path)), None)
+    return next((each for each in plugins.of_features("run_collection") if each.sniff(path)), None)

@@ -1,4 +1,4 @@
-"""Emission of flames, embers, trees and firebrands: shared colour and radiance."""
+"""Emission of billboards, embers, trees and firebrands; `fire.flame_volume` has that of marched flames."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Further inputs of a scene file, which rooms read.
+"""Further inputs of a scene file, which features read.
 
-A room's ``scene_inputs.py`` has, each for the settings:
+A feature's ``scene_inputs.py`` has, each for the settings:
 
 - ``ASPECT``, the aspect of passes that depend on its files, and ``files``, which lists the files
 - ``check``, with the run, and ``check_others``, with the comparison runs by name: errors have the line
@@ -24,16 +24,16 @@ _NAME = "scene_inputs"
 
 def files(settings: Settings) -> list[Path]:
     """List the files."""
-    return [path for room in plugins.of_rooms(_NAME) for path in room.files(settings)]
+    return [path for feature in plugins.of_features(_NAME) for path in feature.files(settings)]
 
 
 def inputs(settings: Settings, aspects: Collection[str], progress: Progress = silent) -> dict[str, str]:
     """SHA-256 of the files on which passes with these aspects depend."""
     return {
-        f"{room.ASPECT} {file.name}": content.of_file(file, settings.cache, progress)
-        for room in plugins.of_rooms(_NAME)
-        if room.ASPECT in aspects
-        for file in room.files(settings)
+        f"{feature.ASPECT} {file.name}": content.of_file(file, settings.cache, progress)
+        for feature in plugins.of_features(_NAME)
+        if feature.ASPECT in aspects
+        for file in feature.files(settings)
     }
 
 
@@ -45,21 +45,21 @@ def check(settings: Settings, run: Run) -> None:
     InputError
         Names the line of the scene file and what to do.
     """
-    for room in plugins.of_rooms(_NAME):
-        room.check(settings, run)
+    for feature in plugins.of_features(_NAME):
+        feature.check(settings, run)
 
 
 def check_others(settings: Settings, runs: Mapping[str, Run]) -> None:
     """Check that they fit the comparison runs; errors as `check`."""
-    for room in plugins.of_rooms(_NAME):
-        room.check_others(settings, runs)
+    for feature in plugins.of_features(_NAME):
+        feature.check_others(settings, runs)
 
 
 def sources(settings: Settings) -> list[dict[str, str]]:
     """List the sources to cite, as rows of `kind` and `text`."""
-    return [row for room in plugins.of_rooms(_NAME) for row in room.sources(settings)]
+    return [row for feature in plugins.of_features(_NAME) for row in feature.sources(settings)]
 
 
 def sentences(settings: Settings) -> list[str]:
     """Describe the inputs for the paragraph on methods."""
-    return [text for room in plugins.of_rooms(_NAME) for text in room.sentences(settings)]
+    return [text for feature in plugins.of_features(_NAME) for text in feature.sentences(settings)]

@@ -16,7 +16,7 @@ from typing import Any
 from .. import plugins
 from .menu_entries import Line
 
-panels = plugins.of_rooms("panel")
+panels = plugins.of_features("panel")
 classes = tuple(each for panel in panels for each in getattr(panel, "classes", ()))
 properties = tuple(panel.properties for panel in panels if hasattr(panel, "properties"))
 

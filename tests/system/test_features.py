@@ -12,7 +12,7 @@ from firetwin import plugins
 from scene_text import DRONE, NO_PLANTS, NO_SMOKE, TINY
 
 ADDON = Path(firetwin.__file__).parent
-DECLARED = {each.__name__.split(".")[-2]: each for each in plugins.of_rooms("command")}
+DECLARED = {each.__name__.split(".")[-2]: each for each in plugins.of_features("command")}
 PACKAGES = list(DECLARED)
 COMMANDS = {package: each.COMMAND.name for package, each in DECLARED.items() if hasattr(each, "COMMAND")}
 SCENE = 'run = "{run}"\n[time]\nframes = 1\n' + NO_PLANTS + NO_SMOKE + TINY + DRONE

@@ -1,6 +1,6 @@
 """Reader of Firetwin's own format: a folder with run.toml, and a file or a folder of files per field.
 
-A room's ``run_folder.py`` recognises other folders that stand for a run, such as one that still grows. It
+A feature's ``run_folder.py`` recognises other folders that stand for a run, such as one that still grows. It
 has ``sniff(path)``, ``newest(path)``, the run folder to read, ``changing_file(path)``, and
 ``warning(run, zone)``, a warning about a run with its head, or ("", "").
 """
@@ -37,10 +37,10 @@ def open(path: Path) -> Run:
 
 def warnings(path: Path, zone: str) -> list[tuple[str, str]]:
     """Return heads and texts of warnings about the run in a folder."""
-    return [found for each in plugins.of_rooms("run_folder") if any(found := each.warning(path, zone))]
+    return [found for each in plugins.of_features("run_folder") if any(found := each.warning(path, zone))]
 
 
 def _reader(path: Path) -> ModuleType | None:
     if (path / "run.toml").is_file():
         return None
-    return next((each for each in plugins.of_rooms("run_folder") if each.sniff(path)), None)
+    return next((each for each in plugins.of_features("run_folder") if each.sniff(path)), None)

@@ -68,7 +68,16 @@ def test_what_changed_in_pictures(tmp_path):
     first = Picture("drone", 1, "rgb")
     with Store(tmp_path, create=True) as store:
         store.add(before, {path: {} for path in first.files()})
-        pictures = [first, replace(first, frame=2), replace(first, name="depth")]
-        differing = changes.of_pictures(store, pictures, {("drone", "rgb"): now, ("drone", "depth"): now})
-    assert differing == ["version of Firetwin", "code", "settings (samples and smoke.cloud_base)"]
-    assert changes.of_picture(now, now) == []
+        damaged = replace(first, name="normal")
+        store.add(now, {path: {} for path in damaged.files()})
+        pictures = [first, replace(first, frame=2), replace(first, name="depth"), damaged]
+        differing = changes.of_pictures(
+            store, pictures, {("drone", name): now for name in ("rgb", "depth", "normal")}
+        )
+    assert differing == [
+        "version of Firetwin",
+        "code (render/layers.py)",
+        "settings (samples and smoke.cloud_base)",
+        "missing or damaged files",
+    ]
+    assert changes.of_picture(now, now | {"further": {"members.npz": "1"}}) == ["other files of the scene"]
