@@ -9,7 +9,7 @@ from firetwin.scene import build
 from firetwin.scene.live import build as live
 from firetwin.shot.shot import Shot
 from made_once import made_once
-from small_scene import _settings, simplify_looks
+from small_scene import simplify_looks, small_settings
 
 BUDGET = 16_000
 __all__ = ["live_blend", "live_stage"]
@@ -17,7 +17,7 @@ __all__ = ["live_blend", "live_stage"]
 
 def _shot(run_folder, run, folder):
     """The small shot with some trees."""
-    settings = _settings(run_folder, folder)
+    settings = small_settings(run_folder, folder)
     forest = replace(settings.forest, density="stand", budget=600, draw_distance=3000.0)
     return Shot(replace(settings, forest=forest), run)
 
