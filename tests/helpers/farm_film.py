@@ -39,7 +39,7 @@ keys = [{{latitude = 38.83, longitude = -120.55, height = 500, target = "fire"}}
 )
 
 
-def scene(path: Path, run: Path, frames: int = 4, smoke: str = "true") -> Path:
+def scene(path: Path, run: Path, frames: int = 4, smoke: str = "false") -> Path:
     """Write the scene file; the second camera films a frame less than the first."""
     path.write_text(SCENE.format(run=run, frames=frames, others=frames - 1, smoke=smoke))
     return path
@@ -59,7 +59,7 @@ def flow_scene(path: Path, run: Path, frames: int = 24) -> Path:
     """Write the scene file of six minutes of the fire, with smoke of a flow, in parts of 12 frames."""
     text = scene(path, run, frames).read_text()
     for old, new in (
-        (PREVIEW.format(smoke="true"), FLOW),
+        (PREVIEW.format(smoke="false"), FLOW),
         ("end = 2014-09-17T22:00:00Z", "end = 2014-09-17T21:06:00Z"),
         ("chunk = 2\n", "chunk = 12\n"),
     ):

@@ -27,6 +27,7 @@ from firetwin.shot.cameras.rigs.drone import CameraKey, Drone  # noqa: E402
 from firetwin.shot.fire.smoke_scale import Scale  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin.smoke import domains  # noqa: E402
+from firetwin.smoke.flow import Flow  # noqa: E402
 from firetwin_core import sensor  # noqa: E402
 from made_once import made_once  # noqa: E402
 from scene_text import PANEL  # noqa: E402
@@ -275,7 +276,7 @@ def few_cells(monkeypatch):
     monkeypatch.setattr(domains, "_NEST_LEVELS", (120.0, 400.0, 11))
     monkeypatch.setattr(domains, "_NEST", 72)
     monkeypatch.setattr(domains, "_MARGIN", 2000.0)
-    monkeypatch.setattr(domains, "LEAD", 40.0)
+    monkeypatch.setattr(Flow, "lead", 40.0)
     monkeypatch.setattr(domains, "_height_fraction", lambda shot: 1.0)
     monkeypatch.setattr(Shot, "scale", Scale())
 

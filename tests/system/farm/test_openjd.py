@@ -40,7 +40,7 @@ def plan(engine, path, out, *options):
 @pytest.mark.parametrize("engine", ["openjd", "deadline"])
 def test_templates_are_what_the_specification_asks_for(openjd, film, tmp_path, engine):
     path = tmp_path / "scene.toml"
-    path.write_text(film[0].read_text().replace('"preview"', '"flow"'))  # with a bake
+    path.write_text(film[0].read_text().replace("enabled = false", "enabled = true"))  # with a bake
     plan(engine, path, tmp_path / "out", "os=linux", "memory=16G", "gpus=1", "gpu_memory=8G")
     template = tmp_path / "out" / "farm" / engine / "template.json"
     openjd("check", template)
