@@ -86,7 +86,7 @@ COMMAND = Command("greet", "print a greeting", "", MACHINE, run=lambda arguments
 """,
     "panel.py": """
 import bpy
-from ..ui.menu_entries import Entry
+from ..ui.menu_entries import MenuEntry
 from ..ui.sidebar import SidebarPanel
 
 class FIRETWIN_OT_greet(bpy.types.Operator):
@@ -105,7 +105,7 @@ def unregister():
     pass
 
 classes = (FIRETWIN_OT_greet, FIRETWIN_PT_greeting)
-menu = {"Help": (Entry("greet"),)}
+menu = {"Help": (MenuEntry("greet"),)}
 """,
 }
 REGISTERED = """

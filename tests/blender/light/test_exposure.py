@@ -116,15 +116,6 @@ def test_smoke_that_glows_keeps_its_colour_and_does_not_drown_the_picture(filmed
     assert exposed[-len(light) // 10 :].mean() > 0.32 or exposed.mean() > 0.08
 
 
-def test_smoke_that_is_thin_everywhere_glows_less(filmed, firestorm):
-    shine = []
-    for extinction in (0.0, 0.01, 0.004):
-        shot = Shot(filmed(4.0, extinction=extinction), firestorm)
-        shine.append(exposure_meter.measure(shot, shot.paths[0], 1)[2].sum())
-    assert shine[0] > shine[1] > shine[2] > 0.0
-    assert shine[2] == pytest.approx(sky.THIN * shine[0])
-
-
 @pytest.mark.parametrize("away", [4.0, 14.0])
 def test_by_day_it_is_about_that_of_a_clear_day_wherever_the_camera_is(filmed, run, away):
     assert stops(filmed(away, moment=DAY), run)[0] == pytest.approx(0.6, abs=0.6)
