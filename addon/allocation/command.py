@@ -32,7 +32,7 @@ are sectors around the centre of the burned area, lettered clockwise from north.
 
 {_LIMITS}
 
-Needs SciPy (pip install 'firetwin[resources]'). The exit status is 1 if there is no allocation; the
+Needs SciPy (pip install 'firetwin[resources]'). The exit status is 1 if an allocation is impossible; the
 reasons are printed on stderr."""
 
 

@@ -15,7 +15,7 @@ from .truth import Truth
 
 KIND = "formats"
 CHECKED = ("coco", "yolo", "nerfstudio", "colmap")
-"""Formats that have no pictures of their own."""
+"""Formats that refer to the pictures of the set."""
 
 
 def check(folder: Path, samples: Sequence[Truth]) -> Iterator[Finding]:

@@ -1,4 +1,4 @@
-"""Export requests: a shot, a format and its options, and what they resolve to, once in each process."""
+"""Export requests: source of the shot, format and options. Each process resolves the shot once."""
 
 from __future__ import annotations
 

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import input_error, reading
 from ..jobs import convert, worker
 from ..progress import MessageCallback, Progress, no_message, silent
+
+if TYPE_CHECKING:
+    from ..run.models.model import Options
 
 
 def run(
@@ -43,10 +47,9 @@ def run(
     for path in paths:
         if not path.exists():
             raise input_error(path, "there is no such file or folder; check the path")
-    Options.of(start, at, projection, 0.0, [], name, zone)
+    options = Options.of(start, at, projection, 0.0, [], name, zone)
     write.check(out)
-    options = [start, at, projection, horizon, name, zone]
-    work = partial(in_process, [path.absolute() for path in paths], out.absolute(), options)
+    work = partial(in_process, [path.absolute() for path in paths], out.absolute(), options, horizon)
     convert.work_apart(work, paths[0], progress, tell, stop)
     return out
 
@@ -54,21 +57,19 @@ def run(
 def in_process(
     files: list[Path],
     out: Path,
-    options: list,
+    options: Options,
+    horizon: float = 0.0,
     progress: Progress = silent,
     tell: MessageCallback = no_message,
 ) -> None:
     """Worker side: gather runs, or select the reader, read and write."""
-    from ..run.models.model import Options
     from .ensemble import gather, member_set, readers
 
-    start, at, projection, horizon, name, zone = options
     with reading(files[0]):
         if len(files) == 1 and gather.sniff(files[0]):
             manifest, notes = gather.convert(files[0], out, horizon), []
         else:
-            said = Options.of(start, at, projection, 0.0, [], name, zone)
-            members = readers.read(files, said, horizon)
+            members = readers.read(files, options, horizon)
             manifest, notes = member_set.save(members, out, files[0]), members.notes
     total, issued = len(manifest.members) + len(manifest.left_out), ""
     if manifest.issued:

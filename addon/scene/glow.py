@@ -1,4 +1,4 @@
-"""Emission of billboards, embers, trees and firebrands; `fire.flame_volume` has that of marched flames."""
+"""Emission of billboards, embers, trees and firebrands. For marched flames see `fire.flame_volume`."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ShotSource:
-    """Overrides as text; empty values keep the scene file's.
+    """Scene file and the settings that override it, as text; an empty value overrides nothing.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Firetwin's tables of a station file, in addition to those of a GeoPackage.
+"""Tables that Firetwin adds to a GeoPackage for a station file.
 
 `station` and `area` are features; the other tables are attributes. Geometry is WGS84. Stations have the
 spatial index of the GeoPackage extension (Annex F.3), so that QGIS uses and updates it.

@@ -8,6 +8,7 @@ import numpy as np
 from firetwin.forecasts import convert as members_convert
 from firetwin.forecasts.ensemble import ensemble, write
 from firetwin.forecasts.ensemble.manifest import Manifest, Member
+from firetwin.run.models.model import Options
 
 ISSUED = datetime(2014, 9, 17, 4, 45, tzinfo=UTC)
 
@@ -46,7 +47,8 @@ def convert(
     """Convert a model's members, and open their ensemble."""
     messages: list[str] = []
     paths = folder if isinstance(folder, list) else [folder]
-    members_convert.in_process(paths, out, [start, at, projection, horizon, "", ""], tell=messages.append)
+    options = Options.of(start, at, projection, 0.0, [])
+    members_convert.in_process(paths, out, options, horizon, tell=messages.append)
     members = ensemble.open(out)
     rows = slice(None, None, -1) if members.latitude[0] < members.latitude[-1] else slice(None)
     arrival = np.stack([members.arrival(index)[rows] for index in range(len(members.members))])

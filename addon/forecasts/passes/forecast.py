@@ -20,7 +20,7 @@ from ...shot import picture_credits
 from ...shot.passes import DerivedPass, Files
 from ...shot.shot import Shot
 from .. import forecast
-from . import CODE, REQUIRES, _ground, _text
+from . import ASPECTS, CODE, REQUIRES, _ground, _text
 
 ORDER = 76
 HELP = "Visible picture of one member, with fronts of others, and ground tinted by the members that burned"
@@ -30,7 +30,7 @@ PASS = DerivedPass(
     film=True,
     captions=False,
     single_view=True,
-    aspects=frozenset({"time", "camera", "film", "picture", "terrain", "forecast"}),
+    aspects=ASPECTS | {"terrain"},
     code=CODE,
     requires=REQUIRES,
     needs=("rgb", "depth", "comp"),

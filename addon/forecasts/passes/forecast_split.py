@@ -19,7 +19,7 @@ from ...shot import comparison, picture_credits
 from ...shot.passes import ComparisonPass, Files, view_of
 from ...shot.shot import Shot
 from .. import forecast
-from . import CODE, REQUIRES, _ground, _text
+from . import ASPECTS, CODE, REQUIRES, _ground, _text
 from ._ground import Ground
 
 ORDER = 78
@@ -30,7 +30,7 @@ PASS = ComparisonPass(
     film=True,
     captions=False,
     single_view=True,
-    aspects=frozenset({"time", "camera", "film", "picture", "terrain", "forecast"}),
+    aspects=ASPECTS | {"terrain"},
     code=CODE,
     requires=REQUIRES,
     needs=("rgb", "depth", "comp"),

@@ -21,7 +21,7 @@ from ...run import info, times
 from ...shot.passes import ComparisonPass, Files, view_of
 from ...shot.shot import Shot
 from .. import forecast
-from . import CODE, REQUIRES, _text
+from . import ASPECTS, CODE, REQUIRES, _text
 
 ORDER = 77
 HELP = "Forecast pictures of all [[runs]] in turn, 1.5 s each, with hard cuts"
@@ -31,7 +31,7 @@ PASS = ComparisonPass(
     film=True,
     captions=False,
     single_view=True,
-    aspects=frozenset({"time", "camera", "film", "picture", "forecast"}),
+    aspects=ASPECTS,
     code=CODE,
     requires=REQUIRES,
     needs=("forecast",),

@@ -107,7 +107,7 @@ def _cache_key(shot: Shot) -> str:
 def build_material(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Flame Volume": emission and absorption by extinction and temperature, without scatter.
 
-    Colours (without blue) and brightness are those of `flame_volume.visible`, at the middle frame's exposure.
+    Colours (without blue) and brightness equal `flame_volume.visible` at the exposure of the middle frame.
     """
     look, tree = nodes.material("Firetwin Flame Volume", (1.0, 0.4, 0.05))
     stops = float(exposure.at(shot, np.array([(shot.frames.count + 1) // 2]))[0])

@@ -34,7 +34,7 @@ REMOVED = {
     ("fire", "volume_voxel"): Removed(0.5, "voxels of flames are 0.5 m wide"),
     ("render", "cull"): _CULLING,
     ("render", "skip"): _CULLING,
-    ("smoke", "complete"): Removed(False, "`firetwin export` writes complete smoke by itself"),
+    ("smoke", "complete"): Removed(False, "`firetwin export` always writes complete smoke"),
     ("smoke", "extinction"): Removed(0.0, "the extinction of smoke follows from its mass"),
     ("smoke", "lighting"): Removed("solved", "light in smoke is always computed once per frame"),
     ("smoke", "max_age"): Removed(5400.0, "it was the age of puffs, which are gone"),

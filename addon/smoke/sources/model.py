@@ -40,7 +40,7 @@ class ModelSource(Source):
         return [VolumeLayer("smoke", self.resolution.voxel, self.resolution.step, self.resolution.extinction)]
 
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
-        """Write the volume of a frame; there is no smoke outside of the model's times."""
+        """Write the volume of a frame; before the first and after the last model time it is empty."""
         run, time = self.shot.run, float(self.times[frame - 1])
         run_time = float(np.clip(time, run.times[0], run.times[-1]))
         smoke = run.smoke_3d_at(run_time)
