@@ -11,7 +11,7 @@ import bpy
 
 from ..blender import nodes, owned
 from ..blender.owned import Stage
-from ..shot.fire.flame_map import FADE
+from ..shot.fire.flame_view import FADE
 
 _SHADER, _GEOMETRY = "flame field", "flame field of geometry"
 _REACH = "Reach"

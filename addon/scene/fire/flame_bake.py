@@ -21,7 +21,7 @@ from ...passes import masks
 from ...run import content
 from ...shot import schema
 from ...shot.cameras.path import Path as CameraPath
-from ...shot.fire.flame_map import FADE
+from ...shot.fire.flame_view import FADE
 from ...shot.light import exposure
 from ...shot.settings import code_fingerprint
 from ...shot.shot import Shot

@@ -14,7 +14,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.cameras.path import Path
-from ...shot.fire import emissions, flame_map
+from ...shot.fire import emissions, flame_noise
 from ...shot.fire.flame_size import CROWNS, SIGHT, flame_length, flame_temperature, flame_tilt
 from ...shot.shot import Shot
 from ...shot.terrain import noise
@@ -153,7 +153,7 @@ def front_flames(shot: Shot, grown: Stand | None = None, layout: Layout | None =
     crowns = canopy > CROWNS
     even = flame_length(intensity, settings.fire.flame_length, crowns)
     unevenness = *place[:, :2].T, even, max(shot.front_scale, 0.3), settings.seed
-    length = np.clip(even * uneven * flame_map.flare_factor(*unevenness), *_LENGTHS)
+    length = np.clip(even * uneven * flame_noise.flare_factor(*unevenness), *_LENGTHS)
     thin = lod.LevelTable().multiplier(distance) if len(distance) else np.ones(0)
     wind = float(np.hypot(*shot.wind))
     finest = _point_spacing(ground.cell, layout.spacing[0][1] * _relative_spacing(shot))[1]
@@ -170,12 +170,12 @@ def front_flames(shot: Shot, grown: Stand | None = None, layout: Layout | None =
         random[2],
         _flaming_heat(canopy, surface, stands)
         * spacing**2
-        / (residence * _MEAN_LIFE * thin * (1.0 - layout.gaps * flame_map.gap_fraction(even))),
+        / (residence * _MEAN_LIFE * thin * (1.0 - layout.gaps * flame_noise.gap_fraction(even))),
         np.zeros(len(length)),
     )
     kept = random[0] * 0.999 < thin
     if layout.gaps:
-        kept &= flame_map.gap_margin(*unevenness) > 0.0
+        kept &= flame_noise.gap_margin(*unevenness) > 0.0
     points = points.take(np.flatnonzero(kept))
     if grown is not None and settings.fire.torches:
         points = _concatenate([points, torching_crowns(shot, grown)])
@@ -230,7 +230,7 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
     single, size, late, seed = (
         noise.uniform(key[:, 0], key[:, 1], shot.settings.seed + 400 + k) for k in range(4)
     )
-    luck = _luck(flame_map.clumping(shot, *grown.position[near, :2].T), single)
+    luck = _luck(flame_noise.clumping(shot, *grown.position[near, :2].T), single)
     lit = (luck < _TORCHES * canopy / (canopy + 1.0)) & (arrival <= last)
     lit &= fire_effects.of_trees(shot, row, column, grown.height[near], grown.key[near]).torched
     residence = 30.0 + 30.0 * size
@@ -256,7 +256,7 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
 
 
 def _luck(clumps: Array, single: Array) -> Array:
-    """Return numbers (n,), nearly uniform in 0..1, that are low in clumps (`flame_map.clumping`)."""
+    """Return numbers (n,), nearly uniform in 0..1, that are low in clumps (`flame_noise.clumping`)."""
     return 1.0 / (1.0 + np.exp(_CLUMPED * clumps + _SINGLE * (2.0 * single - 1.0)))
 
 

@@ -16,11 +16,11 @@ from numpy.typing import ArrayLike, NDArray
 from ...geometry.grids import dilate
 from ..terrain import noise
 from ..terrain.terrain import UNKNOWN
-from . import flame_size
+from . import flame_noise, flame_patches, flame_size
 from .flame_depth import FrontFields
+from .flame_view import FADE, ViewCone
 
 _PIXELS = 2.0  # height in pixels of the typical long flames at the reach (by eye)
-FADE = (0.8, 1.2)  # distances over the reach between which the field fades out
 _LONG = 90.0  # percentile of the flame lengths of the shown fronts
 _BEFORE = 900.0  # s before the first frame from which flames are still seen
 
@@ -44,17 +44,11 @@ _PATCH = 9.0  # m, size of patches of fuel that burn on behind the front
 _UNEVEN = ((26.0, 0.8, 0.7), (9.0, 0.6, 0.2))
 """Sizes of the noise of the lengths' logarithm, m, and its strengths in low flames and in a crown fire, where
 narrow patches would be spears (by eye)."""
-_FLARE, _FLARES = 160.0, 1.6  # m, in a crown fire; log deviation of the lengths of low flames (by eye)
-_EVEN = (5.0, 12.0)  # m, flame lengths between which lengths become uniform
-_GAP, _GAPS = 25.0, 0.5  # m, size of gaps in a crown fire; fraction of gaps in a front with the lowest flames
-_BROKEN = (0.5, 6.0)  # m, flame lengths at which a front has most gaps, and none
-_CLUMP, _CLUMPS = 45.0, (-0.3, 0.05)  # m, size of clumps of crowns that burn; noise from none to full
 _BETWEEN = 0.25  # length between clumps over the length in them (by eye)
 _TALLEST = 1.35  # length of the longest flames over the mean length (by eye)
 _LENGTHS = (0.15, 75.0)  # m
 _LEAST_FUEL = 0.05  # kg/m2
 _MIDFLAME = 0.4  # wind at the flames over the wind above (P. L. Andrews 2012, RMRS-GTR-266, open fuel)
-LAUNCH, LIFT = 1.5, 7.0  # m/s, m/s2: rise of flame gas (see `FlameShape`)
 
 Array = NDArray[np.float64]
 
@@ -125,23 +119,6 @@ class Square:
     spacing: float
 
 
-@dataclass(frozen=True)
-class ViewCone:
-    """View of a camera, for culling: its rotation (3, 3), and the tangents of half its angles of view."""
-
-    rotation: Array
-    half: tuple[float, float]
-
-    def sees(self, offset: Array, radius: float) -> NDArray[np.bool_]:
-        """Return a mask (n,) of spheres of a radius (m) at offsets (n, 3) from the camera that it may see."""
-        right, up, back = np.moveaxis(offset @ self.rotation, -1, 0)
-        slack = [radius * np.hypot(1.0, half) for half in self.half]
-        inside = (np.abs(right) < self.half[0] * -back + slack[0]) & (
-            np.abs(up) < self.half[1] * -back + slack[1]
-        )
-        return inside | (np.linalg.norm(offset, axis=-1) < 2.0 * radius)
-
-
 def squares(shot: Any, eye: Array, time: float, limit: float, lens: ViewCone | None = None) -> list[Square]:
     """Return the flames around a camera: nested squares, the finest first.
 
@@ -164,6 +141,25 @@ def squares(shot: Any, eye: Array, time: float, limit: float, lens: ViewCone | N
         if 0.5 * _CELLS * spacing > FADE[1] * limit or spacing >= _COARSEST:
             return found
         spacing *= 2.0
+
+
+def patches(
+    shot: Any, eye: Array, time: float, limit: float, pixel: float, lens: ViewCone | None = None
+) -> flame_patches.Patches:
+    """Return the flames around a camera at a time (s).
+
+    Parameters
+    ----------
+    eye
+        (3,) position of the camera, m.
+    limit
+        Distance (m) to which flames are drawn; see `reach`.
+    pixel
+        Size of a pixel over its distance.
+    lens
+        View of the camera; patches outside of it are left out.
+    """
+    return flame_patches.build(shot, eye, time, limit, pixel, lens, carrying_wind(shot))
 
 
 def carrying_wind(shot: Any) -> tuple[float, float]:
@@ -203,18 +199,18 @@ def lengths(shot: Any, place: Array, row: Array, column: Array, time: float) -> 
     intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * fuel * speed
     formula = full.settings.fire.flame_length
     even = flame_size.flame_length(intensity, formula, canopy > flame_size.CROWNS)
-    factor = flare_factor(east, north, even, scale, seed)
-    crowded = noise.smoothstep(*_EVEN, even)
+    factor = flame_noise.flare_factor(east, north, even, scale, seed)
+    crowded = noise.smoothstep(*flame_noise.EVEN, even)
     for index, (size, low, tall) in enumerate(_UNEVEN):
         wave = noise.fractal(east, north, size * scale, 1, seed + 550 + index)
         factor *= np.exp((low + (tall - low) * crowded) * wave)
-    clumps = clumping(shot, east, north)
-    factor *= 1.0 - crowded * (1.0 - _BETWEEN) * (1.0 - noise.smoothstep(*_CLUMPS, clumps))
+    clumps = flame_noise.clumping(shot, east, north)
+    factor *= 1.0 - crowded * (1.0 - _BETWEEN) * (1.0 - noise.smoothstep(*flame_noise.CLUMPS, clumps))
     long = np.clip(even * np.minimum(factor, _TALLEST), 0.0, _LENGTHS[1]) * (fuel > _LEAST_FUEL)
-    height = long * upright(long, carrying_wind(shot))
+    height = long * flame_noise.upright(long, carrying_wind(shot))
     age = time - ground.arrival_at(row, column)
     patch = noise.fractal(east, north, _PATCH * scale, 2, seed + 560) + clumps
-    outside = noise.smoothstep(-0.06, 0.06, gap_margin(east, north, even, scale, seed))
+    outside = noise.smoothstep(-0.06, 0.06, flame_noise.gap_margin(east, north, even, scale, seed))
     found = height * _phase(age, speed, residence, long, patch) * outside
     return np.where(found >= _LENGTHS[0], found, 0.0)
 
@@ -234,36 +230,6 @@ def _phase(age: Array, speed: Array, residence: Array, length: Array, patch: Arr
     residual *= (late > -0.5) * (1.0 - noise.smoothstep(1.2, 1.8, late))
     residual *= noise.smoothstep(*_WOOD, residence)
     return np.where(age > 0.0, np.maximum(main, residual), 0.0)
-
-
-def flare_factor(east: Array, north: Array, length: Array, scale: float, seed: int) -> Array:
-    """Return a factor (n,) on low flames (m): patches flare up or creep."""
-    wave = noise.fractal(east, north, _FLARE * scale, 3, seed + 530)
-    return np.exp(_FLARES * wave * (1.0 - noise.smoothstep(*_EVEN, length)))
-
-
-def gap_fraction(length: Array) -> Array:
-    """Return the fraction of gaps in a front with flames of this length (m)."""
-    return _GAPS * (1.0 - noise.smoothstep(*_BROKEN, length))
-
-
-def gap_margin(east: Array, north: Array, length: Array, scale: float, seed: int) -> Array:
-    """Return the margin (n,) to the gaps of fronts with low flames (m): below 0 in gaps, 1 without any."""
-    broken = noise.fractal(east, north, _GAP * scale, 2, seed + 520)  # 0.4 deviate
-    gaps = gap_fraction(length)
-    return np.where(gaps > 0.0, 0.5 + 0.8 * broken - gaps, 1.0)
-
-
-def clumping(shot: Any, east: Array, north: Array) -> Array:
-    """Return noise (n,) at scene points, m. Crowns burn first in clumps of high values."""
-    scale = max(shot.full.front_scale, 0.3)
-    return noise.fractal(east, north, _CLUMP * scale, 2, shot.full.settings.seed + 570)
-
-
-def upright(length: Array, wind: tuple[float, float]) -> Array:
-    """Return the height of flames over their length (m), which wind (m/s) leans."""
-    flight = (np.sqrt(LAUNCH**2 + 2.0 * LIFT * length) - LAUNCH) / LIFT
-    return length / np.maximum(np.hypot(length, np.hypot(*wind) * flight), 1.0e-6)
 
 
 def _parts(spacing: float) -> Array:

@@ -9,7 +9,7 @@ import pytest
 from firetwin.run import opening as runs
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import flames
-from firetwin.shot.fire import flame_map
+from firetwin.shot.fire import flame_noise
 from firetwin.shot.sections import FireSettings
 from firetwin.shot.shot import Shot
 
@@ -40,7 +40,7 @@ def test_low_flames_leave_gaps_and_tall_ones_none(shot):
 
     def outside(length):
         scale = max(shot.front_scale, 0.3)
-        return flame_map.gap_margin(east, north, np.full(4000, length), scale, shot.settings.seed) > 0.0
+        return flame_noise.gap_margin(east, north, np.full(4000, length), scale, shot.settings.seed) > 0.0
 
     assert outside(10.0).all()
     kept = [outside(length).mean() for length in (0.4, 2.0, 4.0)]
