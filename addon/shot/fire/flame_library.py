@@ -24,7 +24,7 @@ from ...errors import input_error
 KINDS = ("calm", "breeze", "wind", "crown")
 SEEDS = (1, 2)
 
-_FIELDS = ("codes", "rise", "cell", "front", "interval", "fade", "wind")
+_FIELDS = ("codes", "rise", "cell", "front", "interval", "fade", "wind", "crown")
 _LARGEST = 1 << 27  # bytes of an unpacked block
 _ALONG = 8  # cells along y are a multiple of it, for mip levels
 
@@ -43,6 +43,8 @@ class FlameBlock:
     interval : time between frames, sqrt(L / g).
     fade : number of last frames that blend into the first ones.
     wind : speed of the wind, sqrt(gL).
+    crown : base, top and radius of the foliage of a burning crown, L; zeros for a line. The trunk is in the
+        middle along y.
     """
 
     codes: NDArray[np.uint8]
@@ -52,6 +54,7 @@ class FlameBlock:
     interval: float
     fade: int
     wind: float
+    crown: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 @lru_cache(maxsize=len(KINDS) * len(SEEDS))
@@ -92,13 +95,16 @@ def _block(fields: dict[str, Any]) -> FlameBlock:
     codes, rise = fields["codes"], fields["rise"]
     if codes.dtype != np.uint8 or codes.ndim != 4 or 0 in codes.shape or codes.shape[2] % _ALONG:
         raise ValueError(f"codes are {codes.dtype} of shape {codes.shape}")
-    if rise.shape != codes.shape[1:2] or not np.isfinite(rise).all():
-        raise ValueError(f"rise has the shape {rise.shape} for {codes.shape[1]} levels, or is not finite")
+    if rise.dtype != np.float32 or rise.shape != codes.shape[1:2] or not np.isfinite(rise).all():
+        raise ValueError(
+            f"rise is {rise.dtype} of shape {rise.shape}, not finite float32 of {codes.shape[1:2]}"
+        )
     cell, front, interval, wind = (float(fields[name]) for name in ("cell", "front", "interval", "wind"))
     fade = int(fields["fade"])
     if not (0 < cell < 1 and 0 < interval < 1 and np.isfinite(front) and 0 <= wind < 10):
         raise ValueError(f"cell {cell}, interval {interval}, front {front}, wind {wind}")
     if not 0 < fade < len(codes):
         raise ValueError(f"{fade} of {len(codes)} frames fade")
+    base, top, radius = map(float, fields["crown"])
     codes.setflags(write=False)
-    return FlameBlock(codes, rise.astype(np.float32), cell, front, interval, fade, wind)
+    return FlameBlock(codes, rise, cell, front, interval, fade, wind, (base, top, radius))

@@ -1,0 +1,154 @@
+"""Compare the blocks with measured flames: `python -m firetwin.data.flames.check [FOLDER] [--puffing]`.
+
+Prints a Markdown table. Heat, temperatures and lengths come from the blocks; `--puffing` solves a long,
+coarse flame for its frequency. Correlations are quoted from handbooks (SFPE) and FDS's validation scripts.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import FOLDER, pack, solve
+
+AIR = 1.2 * 1.005 * 293.0  # kJ/m3: density, specific heat and temperature of air
+UNIT_HEAT = AIR * 9.81**0.5  # kW/m (lines) or kW (crowns) at heat 1 and L = 1 m
+CONVECTED = 0.7  # share of the heat release
+TEMPERATURE = 293.0  # K, of air
+HEAT_OF_COMBUSTION = 18_000.0  # kJ/kg, of wood gas
+Row = tuple[str, str, float, float]
+
+
+def main() -> None:
+    """Run the command line."""
+    parser = argparse.ArgumentParser(prog="python -m firetwin.data.flames.check", description=__doc__)
+    parser.add_argument("folder", nargs="?", type=Path, default=FOLDER)
+    parser.add_argument("--puffing", action="store_true", help="solve for the frequency of puffs, a minute")
+    options = parser.parse_args()
+    print("| block | quantity | source | block | measured flames | difference |\n|---|---|---|--:|--:|--:|")
+    for path in sorted(options.folder.glob("*_[0-9].npz")):
+        for row in rows(path):
+            print(format_row(path.stem, row))
+    if options.puffing:
+        print(format_row("calm", puffing()))
+
+
+def format_row(name: str, row: Row) -> str:
+    """Return a row of the table."""
+    quantity, source, value, measured = row
+    both = (
+        f"{value:.3g} | {measured:.3g} | {100 * (value / measured - 1):+.0f} %"
+        if measured
+        else f"{value:.3g} | - | -"
+    )
+    return f"| {name} | {quantity} | {source} | {both} |"
+
+
+def rows(path: Path) -> Iterator[Row]:
+    """Yield quantity, source, value of the block and of measured flames (0: none), all of one block."""
+    with np.load(path, allow_pickle=False) as stored:
+        block = {name: stored[name] for name in stored.files}
+    crown = bool(block["crown"].any())
+    heat = float(block["heat"].max()) * UNIT_HEAT / CONVECTED
+    if crown:
+        diameter = 2.0 * float(block["crown"][2])
+        yield "length, L", "Heskestad 1983", 1.0, 0.235 * heat**0.4 - 1.02 * diameter
+        yield from temperatures(block, heat)
+        return
+    yield "length, L", "Thomas 1963", 1.0, 0.0266 * heat ** (2.0 / 3.0)
+    place = pack.tips(block["codes"], float(block["cell"]), base(block), crown)
+    if block["wind"]:
+        yield from tilts(place, float(block["wind"]), heat)
+    else:
+        yield from temperatures(block, heat)
+    yield "spacing of peaks, L", "Finney et al. 2013: in proportion to L", spacing(place, block), 0.0
+
+
+def base(block: dict[str, NDArray]) -> float:
+    """Return x of the middle of the burning base, in L from the first face."""
+    return float(block["front"]) - 0.5 * float(block["depth"])
+
+
+def tilts(place: NDArray[np.float64], wind: float, heat: float) -> Iterator[Row]:
+    """Yield the tilt (degrees) of the median tip against three correlations."""
+    across, height = np.median(place, axis=0)
+    tilt = float(np.degrees(np.arctan2(across, height)))
+    yield (
+        "tilt",
+        "Albini 1981, tan A = 1.22 U / sqrt(gH)",
+        tilt,
+        float(np.degrees(np.arctan(1.22 * wind / height**0.5))),
+    )
+    scaled = wind / (heat / HEAT_OF_COMBUSTION / 1.2 / 9.81**0.5) ** (1.0 / 3.0)
+    yield "tilt", "AGA 1973, cos A = u^(-1/2)", tilt, float(np.degrees(np.arccos(min(1.0, scaled**-0.5))))
+    yield (
+        "tilt",
+        "Thomas 1963, cos A = 0.7 u^(-0.49)",
+        tilt,
+        float(np.degrees(np.arccos(min(1.0, 0.7 * scaled**-0.49)))),
+    )
+
+
+def temperatures(block: dict[str, NDArray], heat: float) -> Iterator[Row]:
+    """Yield the greatest mean temperature excess (K) at three heights against McCaffrey (1979).
+
+    His fires are round; a line has the zones of a round flame of its length: z / Q^(2/5) is 0.2 at the tip.
+    """
+    height = (np.arange(len(block["excess"])) + 0.5) * float(block["cell"])
+    bottom = float(block["crown"][0])
+    for zone, at in (("continuous, 0.3 L", 0.3), ("intermittent, 0.7 L", 0.7), ("plume, 1.2 L", 1.2)):
+        scaled = 0.2 * at
+        measured = (
+            800.0 if scaled < 0.08 else 63.0 / scaled if scaled < 0.2 else 21.6 * scaled ** (-5.0 / 3.0)
+        )
+        value = np.interp(bottom + at * (1.0 - bottom), height, block["excess"]) * TEMPERATURE
+        yield f"excess, K: {zone}", "McCaffrey 1979", float(value), measured
+
+
+def spacing(place: NDArray[np.float64], block: dict[str, NDArray]) -> float:
+    """Return the mean distance (L) between peaks of the flame along the line that rise 0.1 L over troughs."""
+    frames, _, ny, _ = block["codes"].shape
+    reach = np.hypot(*place.T).reshape(frames, ny)
+    peaks = sum(_count_peaks(line) for line in reach)
+    return frames * ny * float(block["cell"]) / max(peaks, 1)
+
+
+def _count_peaks(line: NDArray[np.float64], prominence: float = 0.1) -> int:
+    """Count peaks of a periodic line that rise by `prominence` over the troughs at both sides."""
+    line = np.roll(line, -int(line.argmin()))
+    count, rising, extreme = 0, False, line[0]
+    for value in (*line, line[0]):
+        if rising and value < extreme - prominence:
+            count, rising, extreme = count + 1, False, value
+        elif not rising and value > extreme + prominence:
+            rising, extreme = True, value
+        else:
+            extreme = max(extreme, value) if rising else min(extreme, value)
+    return count
+
+
+def puffing() -> Row:
+    """Return the main frequency (sqrt(g / L)) of the burning volume against 0.5 sqrt(g / D) (Pagni 1990)."""
+    settings = solve.settings_of("calm", 1, 24, 256) | {"interval": 0.1}
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        solved = solve.run(solve.compile_solver(folder), settings, folder)
+    length = pack.flame_length(solved)
+    # Each part of the line puffs by itself: the mean of the spectra of eight parts.
+    burning = (pack.mixture(solved.codes) > 1.0).sum(axis=(1, 3))
+    parts = burning.reshape(len(burning), 8, -1).sum(axis=2).astype(float)
+    parts -= parts.mean(axis=0)
+    power = (np.abs(np.fft.rfft(parts * np.hanning(len(parts))[:, None], axis=0)) ** 2).mean(axis=1)
+    frequency = np.fft.rfftfreq(len(parts), settings["interval"] / length**0.5)
+    steady = frequency > 0.2  # slower: the patches of fuel
+    peak = float(frequency[steady][np.convolve(power, np.ones(5) / 5, "same")[steady].argmax()])
+    return "puffing, sqrt(g/L)", "0.5 sqrt(g/D)", peak, 0.5 / (solve.DEPTH / length) ** 0.5
+
+
+if __name__ == "__main__":
+    main()

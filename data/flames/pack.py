@@ -1,0 +1,181 @@
+"""Measure solved flames, and pack them as blocks one flame length high.
+
+The flame length is the median, over time and places along the line, of the greatest distance from the middle
+of the burning base at which gas is richer than stoichiometric: the length that the flame exceeds half of the
+time (intermittency 0.5; Zukoski, Cetegen and Kubota 1985).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+LIGHTEST = 0.2  # mixture fraction below which gas is not seen, and stored as 0
+FADING = 0.2  # share of the frames that blend into the first ones
+_LIGHTEST_CODE = 255.0 * (LIGHTEST / 4.0) ** 0.5
+HIGHEST, FARTHEST = 1.6, 2.2  # flame lengths above the ground and behind the front that are stored
+_RIM = 0.12  # flame lengths in which flames fade out below the highest and before the farthest cells
+_STEP = 4  # codes between stored levels
+_DISSOLVING = (0.7, 1.1)  # greatest mixture fraction nearby between which gas is softened (by eye)
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Frames and means of a solved flame, in the solver's units.
+
+    Attributes
+    ----------
+    codes : (frames, nz, ny, nx) uint8, mixture fraction 4 (code / 255)^2.
+    temperature, speed : (nz, nx) mean temperature excess over the air's and mean vertical speed.
+    heat : (nz,) heat convected from below each level, per length of the line (y of the box for a crown).
+    rise : (nz,) mean vertical speed of burning gas, 0 where none burns.
+    divergence : largest error of the divergence times a cell.
+    """
+
+    codes: NDArray[np.uint8]
+    temperature: NDArray[np.float32]
+    speed: NDArray[np.float32]
+    heat: NDArray[np.float32]
+    rise: NDArray[np.float32]
+    divergence: float
+    settings: dict[str, Any]
+
+
+def read_solved(out: Path, settings: dict[str, Any]) -> Solved:
+    """Read what the solver wrote for `settings`."""
+    nx, ny, nz = (int(settings[name]) for name in ("nx", "ny", "nz"))
+    codes = np.fromfile(out, np.uint8).reshape(-1, nz, ny, nx)
+    values = np.fromfile(out.with_name(out.name + ".profiles"), np.float32)
+    temperature, speed, heat, rise, divergence = np.split(values, np.cumsum([nz * nx, nz * nx, nz, nz]))
+    plane = (nz, nx)
+    return Solved(
+        codes, temperature.reshape(plane), speed.reshape(plane), heat, rise, float(divergence[0]), settings
+    )
+
+
+def mixture(codes: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """Return mixture fractions of codes, in units of the stoichiometric one."""
+    return (4.0 * (np.arange(256, dtype=np.float32) / 255.0) ** 2)[codes]
+
+
+def tips(codes: NDArray[np.uint8], cell: float, base: float, crown: bool) -> NDArray[np.float64]:
+    """Return (n, 2): x from the base's middle, and height, of the flame's tip at each time and y.
+
+    The tip is the farthest burning cell. `cell` and `base` (x of the base's middle) may be in any unit of
+    length. A crown has one tip at a time. The tip is 0, 0 at places without burning gas.
+    """
+    burning = mixture(codes) > 1.0
+    burning = burning.any(axis=2)[:, :, None] if crown else burning
+    nz, nx = burning.shape[1], burning.shape[3]
+    z, x = np.meshgrid((np.arange(nz) + 0.5) * cell, (np.arange(nx) + 0.5) * cell - base, indexing="ij")
+    distance = z if crown else np.hypot(x, z)
+    order = np.argsort(distance, axis=None)
+    columns = burning.transpose(0, 2, 1, 3).reshape(-1, nz * nx)[:, order[::-1]]
+    farthest = order[::-1][columns.argmax(axis=1)]
+    place = np.stack([x.ravel()[farthest], z.ravel()[farthest]], axis=1)
+    return np.where(columns.any(axis=1)[:, None], place, 0.0)
+
+
+def base_of(settings: dict[str, Any]) -> float:
+    """Return x of the middle of the burning base, in units."""
+    return float(settings["front"]) - (0.0 if settings.get("crown") else 0.5 * float(settings["depth"]))
+
+
+def flame_length(solved: Solved) -> float:
+    """Return the flame length in units."""
+    settings = solved.settings
+    crown = bool(settings.get("crown"))
+    place = tips(solved.codes, 1.0 / settings["cells"], base_of(settings), crown)
+    return float(np.median(place[:, 1] if crown else np.hypot(*place.T)))
+
+
+def save(path: Path, solved: Solved) -> float:
+    """Write a block whose flame is 1 long, and return the flame length in the solver's units.
+
+    Besides the fields of `firetwin.shot.fire.flame_library.FlameBlock` it has, for `check.py`: `depth` (L) of
+    the burning base; `excess` (nz,), the greatest mean temperature excess over the air's at each level; and
+    `heat` (nz,), the heat convected from below a level per length of the line, over density, specific heat
+    and temperature of air, in sqrt(g L^3) (lines) or, as a sum, sqrt(g L^5) (crowns).
+    """
+    settings, length = solved.settings, flame_length(solved)
+    cell, scale = 1.0 / (settings["cells"] * length), np.sqrt(length)
+    faded = _fade_rims(_soften_dissolving(solved.codes), cell, settings["front"] / length)
+    codes, first, levels = _crop(faded)
+    crown = bool(settings.get("crown"))
+    across = settings["ny"] / settings["cells"] if crown else 1.0
+    trunk = [settings[f"crown_{name}"] / length if crown else 0.0 for name in ("base", "top", "radius")]
+    np.savez_compressed(
+        path,
+        codes=_quantise(codes),
+        rise=_fill(solved.rise / scale)[:levels].astype(np.float32),
+        cell=np.float64(cell),
+        front=np.float64(settings["front"] / length - first * cell),
+        interval=np.float64(settings["interval"] / scale),
+        fade=np.int64(max(1, round(FADING * len(codes)))),
+        wind=np.float64(settings.get("wind", 0.0) / scale),
+        crown=np.array(trunk),
+        depth=np.float64(0.0 if crown else settings["depth"] / length),
+        excess=solved.temperature.max(axis=1)[:levels],
+        heat=(solved.heat * across / length ** (2.5 if crown else 1.5))[:levels].astype(np.float32),
+    )
+    return length
+
+
+def _soften_dissolving(codes: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """Return codes with lean gas away from burning gas blurred by 1-2-1: it shows lines of the grid else."""
+    softened = np.empty(codes.shape, np.float32)
+    low, high = _DISSOLVING
+    for frame, out in zip(codes, softened, strict=True):
+        nearby, blurred = mixture(frame), frame.astype(np.float32)
+        for axis in range(3):
+            below, above = (_neighbour(nearby, shift, axis) for shift in (1, -1))
+            nearby = np.maximum(nearby, np.maximum(below, above))
+            below, above = (_neighbour(blurred, shift, axis) for shift in (1, -1))
+            blurred = 0.5 * blurred + 0.25 * (below + above)
+        weight = np.clip((high - nearby) / (high - low), 0.0, 1.0)
+        out[:] = frame + weight * (blurred - frame)
+    return softened
+
+
+def _neighbour(values: NDArray[np.float32], shift: int, axis: int) -> NDArray[np.float32]:
+    """Return the values of the next cell along an axis: y (1) is periodic, ends of z and x repeat."""
+    rolled = np.roll(values, shift, axis)
+    if axis != 1:
+        end = 0 if shift > 0 else -1
+        np.moveaxis(rolled, axis, 0)[end] = np.moveaxis(values, axis, 0)[end]
+    return rolled
+
+
+def _fade_rims(codes: NDArray[np.float32], cell: float, front: float) -> NDArray[np.float32]:
+    """Return codes that fall to 0 at the highest and the farthest place, and where gas is not seen."""
+    nz, nx = codes.shape[1], codes.shape[3]
+    z, x = (np.arange(nz) + 0.5) * cell, (np.arange(nx) + 0.5) * cell - front
+    low = np.clip((HIGHEST - z) / _RIM, 0, 1).astype(np.float32)
+    near = np.clip((FARTHEST - x) / _RIM, 0, 1).astype(np.float32)
+    faded = codes * (low[:, None, None] * near)
+    faded[faded < _LIGHTEST_CODE] = 0
+    return faded
+
+
+def _crop(codes: NDArray[np.float32]) -> tuple[NDArray[np.float32], int, int]:
+    """Return the codes without empty columns at the ends of x and levels on top, the first x, and levels."""
+    used_x = np.flatnonzero(codes.any(axis=(0, 1, 2)))
+    used_z = np.flatnonzero(codes.any(axis=(0, 2, 3)))
+    first, last = max(used_x[0] - 1, 0), min(used_x[-1] + 2, codes.shape[3])
+    levels = min(used_z[-1] + 2, codes.shape[1])
+    return codes[:, :levels, :, first:last], int(first), int(levels)
+
+
+def _quantise(codes: NDArray[np.float32]) -> NDArray[np.uint8]:
+    """Round to fewer levels, which deflate packs more tightly."""
+    return np.minimum(np.rint(codes / _STEP) * _STEP, 255).astype(np.uint8)
+
+
+def _fill(rise: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Give levels without burning gas the speed of the nearest level with some."""
+    known = np.flatnonzero(rise > 0)
+    return np.interp(np.arange(len(rise)), known, rise[known])

@@ -1,0 +1,82 @@
+#include "output.hpp"
+
+#include <stdexcept>
+
+namespace flame_solver {
+namespace {
+
+constexpr float brightest = 4.0F; ///< mixture fraction of code 255
+constexpr float burning = 0.9F;   ///< mixture fraction of gas whose rise is measured
+
+std::uint8_t encode(float mixture) {
+  const float share = std::clamp(mixture / brightest, 0.0F, 1.0F);
+  return static_cast<std::uint8_t>(std::lround(255.0F * std::sqrt(share)));
+}
+
+void write_floats(std::ofstream& file, const std::vector<double>& values, double scale) {
+  std::vector<float> floats;
+  floats.reserve(values.size());
+  for (const double value : values) {
+    floats.push_back(static_cast<float>(value * scale));
+  }
+  file.write(reinterpret_cast<const char*>(floats.data()),
+             static_cast<std::streamsize>(floats.size() * sizeof(float)));
+}
+
+} // namespace
+
+Output::Output(const Settings& s) : path_(s.out), frames_(s.out, std::ios::binary), settings_(s) {
+  const auto levels = static_cast<std::size_t>(s.nz), columns = static_cast<std::size_t>(s.nx);
+  temperature_.resize(levels * columns);
+  speed_.resize(levels * columns);
+  heat_.resize(levels);
+  rise_.resize(levels);
+  hot_cells_.resize(levels);
+}
+
+void Output::add(const Flame& flame) {
+  const std::vector<float>& values = flame.mixture().values;
+  codes_.resize(values.size());
+  std::transform(values.begin(), values.end(), codes_.begin(), encode);
+  frames_.write(reinterpret_cast<const char*>(codes_.data()),
+                static_cast<std::streamsize>(codes_.size()));
+  add_profiles(flame);
+  divergence_ = std::max(divergence_, divergence_error(flame.flow(), flame.expansion()));
+  ++count_;
+}
+
+void Output::add_profiles(const Flame& flame) {
+  for_each(flame.mixture(), [&](int i, int j, int k) {
+    const auto level = static_cast<std::size_t>(k);
+    const auto place = level * static_cast<std::size_t>(settings_.nx) + static_cast<std::size_t>(i);
+    const double hot = flame.temperature()(i, j, k), w = flame.flow().w(i, j, k);
+    temperature_[place] += hot;
+    speed_[place] += w;
+    heat_[level] += static_cast<double>(flame.expansion()(i, j, k));
+    if (flame.mixture()(i, j, k) > burning) {
+      rise_[level] += w;
+      hot_cells_[level] += 1.0;
+    }
+  });
+}
+
+void Output::close() {
+  std::ofstream file(path_ + ".profiles", std::ios::binary);
+  const double share = 1.0 / (static_cast<double>(count_) * settings_.ny);
+  for (std::size_t k = 0; k < rise_.size(); ++k) {
+    rise_[k] /= std::max(1.0, hot_cells_[k]);
+    heat_[k] += k > 0 ? heat_[k - 1] : 0.0;
+  }
+  write_floats(file, temperature_, share);
+  write_floats(file, speed_, share);
+  write_floats(file, heat_, share / settings_.cells);
+  write_floats(file, rise_, 1.0);
+  write_floats(file, {divergence_}, 1.0);
+  frames_.close();
+  file.close();
+  if (!frames_ || !file) {
+    throw std::runtime_error(path_ + ": could not be written");
+  }
+}
+
+} // namespace flame_solver
