@@ -46,7 +46,7 @@ class Solved:
 
 
 def read_solved(out: Path, settings: dict[str, Any]) -> Solved:
-    """Read what the solver wrote for `settings`."""
+    """Read the output of the solver for `settings`."""
     nx, ny, nz = (int(settings[name]) for name in ("nx", "ny", "nz"))
     codes = np.fromfile(out, np.uint8).reshape(-1, nz, ny, nx)
     values = np.fromfile(out.with_name(out.name + ".profiles"), np.float32)

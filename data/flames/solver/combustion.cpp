@@ -10,7 +10,8 @@ constexpr float schmidt = 0.5F;           ///< turbulent Schmidt number (FDS's d
 constexpr float least_diffusion = 0.004F; ///< times a cell and sqrt(g unit) (by eye)
 constexpr float stable = 0.15F;           ///< largest diffusion per step, of 1/6
 constexpr float flame_excess = 3.2F;      ///< 940 K over air of 293 K: flames of 1,200 K (by eye)
-constexpr float rich_fall = 0.55F;        ///< share of the excess that pure fuel lacks (by eye)
+constexpr float rich_fall =
+    0.55F; ///< drop of the excess from stoichiometric gas to pure fuel (by eye)
 constexpr float radiated = 0.35F, radiated_at = 1.2F; ///< share lost by radiation, and height
 constexpr float most_cooling = -2.0F, most_expansion = 6.0F; ///< 1 / time
 constexpr float still_top = 0.9F; ///< share of the box's height above which nothing expands

@@ -5,10 +5,9 @@
 namespace flame_solver {
 namespace {
 
-constexpr float carried =
-    0.7F; ///< share of its own mass that rising hot gas carries along (by eye)
-constexpr float ground_drag = 1.5F;                    ///< 1 / time, in the lowest cells (by eye)
-constexpr float fuel_drag = 5.0F;                      ///< 1 / length, times the speed (by eye)
+constexpr float carried = 0.7F;     ///< added mass of rising hot gas over its own (by eye)
+constexpr float ground_drag = 1.5F; ///< 1 / time, in the lowest cells (by eye)
+constexpr float fuel_drag = 5.0F;   ///< 1 / length, times the speed (by eye)
 constexpr float gust_size = 0.35F, gust_height = 0.6F; ///< units (by eye)
 constexpr float eddy_size = 0.12F;                     ///< units; half of it as well (by eye)
 constexpr float eddy_rise = 0.8F;                      ///< speed at which small eddies move up
