@@ -57,7 +57,12 @@ def rows(path: Path) -> Iterator[Row]:
     heat = float(block["heat"].max()) * UNIT_HEAT / CONVECTED
     if crown:
         diameter = 2.0 * float(block["crown"][2])
-        yield "length, L", "Heskestad 1983", 1.0, 0.235 * heat**0.4 - 1.02 * diameter
+        yield (
+            "length above foliage's base, L",
+            "Heskestad 1983",
+            1.0 - float(block["crown"][0]),
+            0.235 * heat**0.4 - 1.02 * diameter,
+        )
         yield from temperatures(block, heat)
         return
     yield "length, L", "Thomas 1963", 1.0, 0.0266 * heat ** (2.0 / 3.0)
@@ -95,7 +100,7 @@ def tilts(place: NDArray[np.float64], wind: float, heat: float) -> Iterator[Row]
 
 
 def temperatures(block: dict[str, NDArray], heat: float) -> Iterator[Row]:
-    """Yield the greatest mean temperature excess (K) at three heights against McCaffrey (1979).
+    """Yield the mean temperature excess (K) on the axis at three heights against McCaffrey (1979).
 
     His fires are round; a line has the zones of a round flame of its length: z / Q^(2/5) is 0.2 at the tip.
     """

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-LIGHTEST = 0.2  # mixture fraction below which gas is not seen, and stored as 0
+LIGHTEST = 0.3  # mixture fraction below which gas is not seen, and stored as 0 (by eye)
 FADING = 0.2  # share of the frames that blend into the first ones
 _LIGHTEST_CODE = 255.0 * (LIGHTEST / 4.0) ** 0.5
 HIGHEST, FARTHEST = 1.6, 2.2  # flame lengths above the ground and behind the front that are stored
@@ -30,15 +30,12 @@ class Solved:
     Attributes
     ----------
     codes : (frames, nz, ny, nx) uint8, mixture fraction 4 (code / 255)^2.
-    temperature, speed : (nz, nx) mean temperature excess over the air's and mean vertical speed.
     heat : (nz,) heat convected from below each level, per length of the line (y of the box for a crown).
     rise : (nz,) mean vertical speed of burning gas, 0 where none burns.
     divergence : largest error of the divergence times a cell.
     """
 
     codes: NDArray[np.uint8]
-    temperature: NDArray[np.float32]
-    speed: NDArray[np.float32]
     heat: NDArray[np.float32]
     rise: NDArray[np.float32]
     divergence: float
@@ -50,11 +47,8 @@ def read_solved(out: Path, settings: dict[str, Any]) -> Solved:
     nx, ny, nz = (int(settings[name]) for name in ("nx", "ny", "nz"))
     codes = np.fromfile(out, np.uint8).reshape(-1, nz, ny, nx)
     values = np.fromfile(out.with_name(out.name + ".profiles"), np.float32)
-    temperature, speed, heat, rise, divergence = np.split(values, np.cumsum([nz * nx, nz * nx, nz, nz]))
-    plane = (nz, nx)
-    return Solved(
-        codes, temperature.reshape(plane), speed.reshape(plane), heat, rise, float(divergence[0]), settings
-    )
+    heat, rise, divergence = np.split(values, [nz, 2 * nz])
+    return Solved(codes, heat, rise, float(divergence[0]), settings)
 
 
 def mixture(codes: NDArray[np.uint8]) -> NDArray[np.float32]:
@@ -80,6 +74,26 @@ def tips(codes: NDArray[np.uint8], cell: float, base: float, crown: bool) -> NDA
     return np.where(columns.any(axis=1)[:, None], place, 0.0)
 
 
+def mean_excess(solved: Solved) -> NDArray[np.float64]:
+    """Return (nz,): mean temperature excess over the air's, on the axis, relative to the air's temperature.
+
+    The axis of a line has the greatest mean over time and y, that of a crown is its trunk's. Temperatures
+    follow from the mixture fraction as in `solver/combustion.cpp`.
+    """
+    settings = solved.settings
+    rich = mixture(np.arange(256, dtype=np.uint8))
+    excess = 3.2 * np.where(rich < 1.0, rich, 1.0 - 0.55 * (rich - 1.0) / 4.0)
+    height = (np.arange(settings["nz"]) + 0.5) / settings["cells"]
+    kept = 1.0 - 0.35 * np.minimum(height / 1.2, 1.0)
+    if settings.get("crown"):
+        middle, reach = settings["ny"] // 2, max(1, round(0.05 * settings["cells"]))
+        x = round(settings["front"] * settings["cells"])
+        core = solved.codes[:, :, middle - reach : middle + reach, x - reach : x + reach]
+        return kept * excess[core].mean(axis=(0, 2, 3))
+    mean = np.mean([excess.astype(np.float32)[frame].mean(axis=1) for frame in solved.codes], axis=0)
+    return kept * mean.max(axis=1)
+
+
 def base_of(settings: dict[str, Any]) -> float:
     """Return x of the middle of the burning base, in units."""
     return float(settings["front"]) - (0.0 if settings.get("crown") else 0.5 * float(settings["depth"]))
@@ -97,7 +111,7 @@ def save(path: Path, solved: Solved) -> float:
     """Write a block whose flame is 1 long, and return the flame length in the solver's units.
 
     Besides the fields of `firetwin.shot.fire.flame_library.FlameBlock` it has, for `check.py`: `depth` (L) of
-    the burning base; `excess` (nz,), the greatest mean temperature excess over the air's at each level; and
+    the burning base; `excess` (nz,), the mean temperature excess over the air's on the axis; and
     `heat` (nz,), the heat convected from below a level per length of the line, over density, specific heat
     and temperature of air, in sqrt(g L^3) (lines) or, as a sum, sqrt(g L^5) (crowns).
     """
@@ -119,7 +133,7 @@ def save(path: Path, solved: Solved) -> float:
         wind=np.float64(settings.get("wind", 0.0) / scale),
         crown=np.array(trunk),
         depth=np.float64(0.0 if crown else settings["depth"] / length),
-        excess=solved.temperature.max(axis=1)[:levels],
+        excess=mean_excess(solved)[:levels].astype(np.float32),
         heat=(solved.heat * across / length ** (2.5 if crown else 1.5))[:levels].astype(np.float32),
     )
     return length

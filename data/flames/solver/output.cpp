@@ -26,9 +26,7 @@ void write_floats(std::ofstream& file, const std::vector<double>& values, double
 } // namespace
 
 Output::Output(const Settings& s) : path_(s.out), frames_(s.out, std::ios::binary), settings_(s) {
-  const auto levels = static_cast<std::size_t>(s.nz), columns = static_cast<std::size_t>(s.nx);
-  temperature_.resize(levels * columns);
-  speed_.resize(levels * columns);
+  const auto levels = static_cast<std::size_t>(s.nz);
   heat_.resize(levels);
   rise_.resize(levels);
   hot_cells_.resize(levels);
@@ -48,13 +46,9 @@ void Output::add(const Flame& flame) {
 void Output::add_profiles(const Flame& flame) {
   for_each(flame.mixture(), [&](int i, int j, int k) {
     const auto level = static_cast<std::size_t>(k);
-    const auto place = level * static_cast<std::size_t>(settings_.nx) + static_cast<std::size_t>(i);
-    const double hot = flame.temperature()(i, j, k), w = flame.flow().w(i, j, k);
-    temperature_[place] += hot;
-    speed_[place] += w;
     heat_[level] += static_cast<double>(flame.expansion()(i, j, k));
     if (flame.mixture()(i, j, k) > burning) {
-      rise_[level] += w;
+      rise_[level] += static_cast<double>(flame.flow().w(i, j, k));
       hot_cells_[level] += 1.0;
     }
   });
@@ -67,8 +61,6 @@ void Output::close() {
     rise_[k] /= std::max(1.0, hot_cells_[k]);
     heat_[k] += k > 0 ? heat_[k - 1] : 0.0;
   }
-  write_floats(file, temperature_, share);
-  write_floats(file, speed_, share);
   write_floats(file, heat_, share / settings_.cells);
   write_floats(file, rise_, 1.0);
   write_floats(file, {divergence_}, 1.0);

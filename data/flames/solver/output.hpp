@@ -14,9 +14,10 @@ public:
   explicit Output(const Settings& settings);
   void add(const Flame& flame);
 
-  /// Writes the profiles as float32: means over time and y of temperature and of w, (nz, nx) each;
-  /// the heat that rises through each level (nz); the mean speed at which hot gas rises (nz); and
-  /// the largest error of the divergence.
+  /// Writes the profiles as float32: the gas that expands below the top of each level, per time and
+  /// length along y (nz), which is the convected heat over the air's density, specific heat and
+  /// temperature; the mean speed at which burning gas rises (nz); and the largest error of the
+  /// divergence times a cell.
   void close();
 
 private:
@@ -26,7 +27,7 @@ private:
   std::ofstream frames_;
   int count_ = 0;
   std::vector<std::uint8_t> codes_;
-  std::vector<double> temperature_, speed_, heat_, rise_, hot_cells_;
+  std::vector<double> heat_, rise_, hot_cells_;
   Settings settings_;
   float divergence_ = 0.0F;
 };

@@ -1,5 +1,6 @@
 """Blocks of solved flames: how files are packed and read."""
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -27,8 +28,7 @@ def solved(height: float = 0.6) -> pack.Solved:
     inside = (z[:, None] < height) & (np.abs(x - 0.65) < 0.15)
     codes = np.broadcast_to(np.where(inside, 180, 0)[:, None], shape).astype(np.uint8)
     levels = np.linspace(0.5, 1.0, shape[1], dtype=np.float32)
-    plane = np.zeros((shape[1], shape[3]), np.float32)
-    return pack.Solved(codes, plane, plane, levels, levels, 0.0, SETTINGS)
+    return pack.Solved(codes, levels, levels, 0.0, SETTINGS)
 
 
 @pytest.fixture
@@ -47,6 +47,14 @@ def test_a_packed_flame_is_one_long_and_keeps_its_place(path):
     assert (burning[-1] + 1) * block.cell == pytest.approx(block.front, abs=block.cell)
     assert (block.interval, block.wind) == pytest.approx((0.09 / length**0.5, 0.5 / length**0.5))
     assert block.fade == 2
+
+
+def test_the_temperature_on_the_axis_is_that_of_stoichiometric_gas():
+    flame = solved()
+    codes = np.where(flame.codes > 0, 127, 0).astype(np.uint8)  # mixture 0.99
+    excess = pack.mean_excess(dataclasses.replace(flame, codes=codes))
+    assert excess[0] == pytest.approx(3.2 * 0.992 * (1 - 0.35 / 32 / 1.2), rel=1e-3)
+    assert (excess[10:] == 0).all()
 
 
 def test_lean_gas_away_from_flames_is_softened_and_flames_are_not():
