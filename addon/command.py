@@ -115,6 +115,12 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE|RUN", type=types.path, help=help)
 
 
+def add_overwrite(parser: argparse.ArgumentParser) -> None:
+    """Add the option that replaces files of others (see `output`)."""
+    help = "also replace files that changed or that Firetwin did not write"
+    parser.add_argument("--overwrite", action="store_true", help=help)
+
+
 def add_origin(parser: argparse.ArgumentParser) -> None:
     """Add options for the start time, place, name and time zone of a model's output."""
     parser.add_argument(

@@ -72,8 +72,17 @@ SYSTEM_3D = (_NAME_3D, WGS84_3D, "EPSG", WGS84_3D, _WKT_3D, _NAME_3D)
 """Row of gpkg_spatial_ref_sys for heights."""
 
 
-def write(path: Path, fill: Callable[[sqlite3.Connection], object]) -> None:
+def write(
+    path: Path,
+    fill: Callable[[sqlite3.Connection], object],
+    write_file: Callable[[Path, Callable[[Path], object]], None] = files.write,
+) -> None:
     """Write a GeoPackage; `fill` writes its rows. An existing file is replaced when the new one is complete.
+
+    Parameters
+    ----------
+    write_file
+        Writer of the file: `files.write` or `output.write`.
 
     Raises
     ------
@@ -90,7 +99,7 @@ def write(path: Path, fill: Callable[[sqlite3.Connection], object]) -> None:
             fill(base)
             base.execute("COMMIT")
 
-    files.write(path, put)
+    write_file(path, put)
 
 
 def create_tables(base: sqlite3.Connection, commands: str) -> None:

@@ -1,38 +1,58 @@
-"""Atomic writes of several files and of folders: they get their names after all content is complete."""
+"""Atomic writes of several files and of folders: they get their names after all content is complete.
+
+Files are replaced one by one, by the rule of `output`; no folder is removed with its content, and no link is
+followed. A killed process leaves a temporary folder, which the next call removes.
+"""
 
 from __future__ import annotations
 
+import contextlib
 import os
+import re
 import shutil
+import stat
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from . import output, written
 from .errors import InputError, input_error, writing
+
+try:
+    import fcntl
+except ImportError:  # Windows: temporary folders of killed processes stay
+    fcntl = None  # type: ignore[assignment]
 
 
 @contextmanager
-def staging(out: Path) -> Iterator[Path]:
-    """Make a temporary folder next to `out`; without an error its files and folders then move to `out`.
+def staging(out: Path, overwrite: bool = False, is_run: bool = False) -> Iterator[Path]:
+    """Make a temporary folder next to `out`; without an error its files then move to `out`.
 
-    A file or folder of the same name in `out` is replaced. A killed process leaves `out` as it was, and the
-    temporary folder, whose name ends in ``.part``.
+    Files of an earlier call that the new content lacks are removed from the folders that it has, unless they
+    were changed. A killed process leaves `out` as it was.
+
+    Parameters
+    ----------
+    overwrite
+        Replace files of others, changed files and links.
+    is_run
+        `out` is a run folder, whose files all belong to the set.
 
     Raises
     ------
     InputError
-        The disk is full, or the folder cannot be written.
+        A file may not be replaced (see `output.check`), the disk is full, or the folder cannot be written.
     """
     out = out.absolute()
+    output.refuse_run_folders(out if is_run else out / "file")
     part = _part(out)
+    rests(out.parent, re.escape(out.name))
     try:
         with _temporary(part, out):
             yield part
             _sync(part)
-            out.mkdir(exist_ok=True)
-            for made in sorted(part.iterdir()):
-                _replace(made, out / made.name, part)
+            _move(part, out, overwrite, is_run)
     except InputError as error:
         path = Path(error.path)
         if not path.is_relative_to(part):
@@ -50,9 +70,49 @@ def new_folder(path: Path) -> Iterator[Path]:
         The disk is full, the folder cannot be written, or the name is not free.
     """
     part = _part(path)
+    rests(path.parent, re.escape(path.name))
     with _temporary(part, path):
         yield part
         part.rename(path)
+
+
+def rests(folder: Path, pattern: str) -> list[str]:
+    """Remove temporary folders in a folder that killed processes left; return names of those in use.
+
+    Parameters
+    ----------
+    pattern
+        Regular expression of the names that the temporary folders would get.
+    """
+    in_use = []
+    with contextlib.suppress(OSError):
+        for each in folder.iterdir():
+            found = re.fullmatch(rf"\.(?P<name>{pattern})\.[0-9a-f]{{12}}\.part", each.name)
+            if found and each.is_dir() and not each.is_symlink():
+                with locked(each) as is_alone:
+                    if is_alone:
+                        shutil.rmtree(each, ignore_errors=True)
+                    else:
+                        in_use.append(found["name"])
+    return in_use
+
+
+@contextmanager
+def locked(folder: Path, wait: bool = False) -> Iterator[bool]:
+    """Lock a folder until the end of the block or of the process; False if another process has it."""
+    if fcntl is None:
+        yield wait
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+            is_alone = True
+        except OSError:  # also file systems without locks
+            is_alone = False
+        yield is_alone
+    finally:
+        os.close(handle)
 
 
 def _part(path: Path) -> Path:
@@ -61,20 +121,80 @@ def _part(path: Path) -> Path:
 
 @contextmanager
 def _temporary(part: Path, path: Path) -> Iterator[None]:
-    """Make a folder and remove it at the end; errors name `path`."""
+    """Make a locked folder and remove it at the end; errors name `path`."""
     try:
-        with writing(path):
-            part.mkdir(parents=True)
+        with writing(path), contextlib.ExitStack() as life:
+            while not part.is_dir():  # `rests` of another process may remove it before it is locked
+                life.close()
+                part.mkdir(parents=True)
+                with contextlib.suppress(FileNotFoundError):
+                    life.enter_context(locked(part, wait=True))
             yield
     finally:
         shutil.rmtree(part, ignore_errors=True)
 
 
-def _replace(made: Path, path: Path, part: Path) -> None:
-    """Rename a finished file or folder; an old folder goes to the temporary folder first."""
-    if path.is_dir() and not path.is_symlink():
-        path.rename(part / f"{made.name}.{uuid.uuid4().hex[:12]}.old")
-    made.replace(path)
+def _move(part: Path, out: Path, overwrite: bool, whole: bool) -> None:
+    """Move all files to `out` after all are checked, and remove those that they replace as a set.
+
+    Parameters
+    ----------
+    whole
+        The set is all of `out`, and not only the folders that the new files have.
+    """
+    names = _names(part)
+    for name in names:
+        _check_folders(out, name)
+        output.check(out / name, overwrite, root=out)
+    out.mkdir(exist_ok=True)
+    before = written.read(out)
+    written.add(out, {name: written.digest(part / name) for name in names})
+    for folder in (each for each in sorted(part.rglob("*")) if each.is_dir()):
+        (out / folder.relative_to(part)).mkdir(exist_ok=True)
+    for name in names:
+        (part / name).replace(out / name)
+    folders = {name.split("/")[0] for name in names if "/" in name}
+    for name in sorted(before.keys() - set(names), reverse=True):
+        if whole or name.split("/")[0] in folders:
+            _remove(out, name)
+
+
+def _names(folder: Path) -> list[str]:
+    """List the paths of all files relative to a folder, sorted."""
+    found = (path for path in folder.rglob("*") if not path.is_dir() or path.is_symlink())
+    return sorted(path.relative_to(folder).as_posix() for path in found)
+
+
+def _check_folders(out: Path, name: str) -> None:
+    """Check that the folders between `out` and a file are folders or missing, not links.
+
+    Raises
+    ------
+    InputError
+        One is another file.
+    """
+    for parent in [*(out / name).parents][: name.count("/")][::-1]:
+        try:
+            mode = parent.lstat().st_mode
+        except OSError:
+            return
+        if stat.S_ISLNK(mode):
+            raise input_error(parent, "is a link, which is not followed; choose another folder")
+        if not stat.S_ISDIR(mode):
+            raise input_error(parent, "is a file; choose another folder")
+
+
+def _remove(out: Path, name: str) -> None:
+    """Remove a file of an earlier call if it is unchanged, and its folders if they are then empty."""
+    path = out / name
+    if ".." in path.parts or not path.is_relative_to(out):
+        return
+    with contextlib.suppress(OSError, InputError):
+        _check_folders(out, name)
+        if output.is_own(path, out):
+            path.unlink()
+            for parent in [*path.parents][: name.count("/")]:
+                parent.rmdir()
 
 
 def _sync(folder: Path) -> None:

@@ -1,7 +1,5 @@
 """Expand the stored sample fire to a run folder: `firetwin sample OUT`."""
 
-import shutil
-import tempfile
 import tomllib
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -9,7 +7,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import input_error, writing
+from ..errors import input_error
+from ..staging import staging
 from . import air, members, release, runtext, stored, weather
 from .grid import (
     FUEL_CELL_SIZE,
@@ -33,13 +32,15 @@ def write(
     progress: Callable[[int, int], None] | None = None,
     pace: float = 1.0,
     member: int = 0,
+    overwrite: bool = False,
 ) -> None:
     """Write the sample run to the folder `out`.
 
     Parameters
     ----------
     out
-        Created if missing; an earlier sample run is replaced, other content is rejected.
+        Created if missing; an earlier sample run is replaced, other content is rejected. Files of others in
+        the folder stay.
     frames
         Number of output times, spread evenly over the run's 1,858 minutes; all of them if None.
     format
@@ -50,6 +51,8 @@ def write(
         Speed of the fire / speed in the sample, from the start on: an invented what-if for comparisons.
     member
         Number of the member of the synthetic ensemble (members.py); 0 is the sample's fire.
+    overwrite
+        Also replace changed files of an earlier sample run.
 
     Raises
     ------
@@ -61,8 +64,7 @@ def write(
     if format not in FORMATS:
         raise input_error(out, f"unknown format {format!r}; choose {' or '.join(FORMATS)}")
     minutes = _minutes(out, frames)
-    with writing(out):
-        _write(out, minutes, format, progress, pace, member)
+    _write(out, minutes, format, progress, pace, member, overwrite)
 
 
 def _write(
@@ -72,11 +74,9 @@ def _write(
     progress: Callable[[int, int], None] | None,
     pace: float,
     member: int,
+    overwrite: bool,
 ) -> None:
-    out.parent.mkdir(parents=True, exist_ok=True)
-    work = Path(tempfile.mkdtemp(prefix=f".{out.name}.", dir=out.parent))
-    try:
-        work.chmod(0o755)
+    with staging(out, overwrite, is_run=True) as work:
         sample = at_pace(members.sample_of(member), pace)
         writer = runtext.NpyWriter(work) if format == "npy" else runtext.TextWriter(work)
         for name, values in _static(sample).items():
@@ -87,11 +87,6 @@ def _write(
                 if progress:
                     progress(done + 1, len(minutes))
         (work / "run.toml").write_text(_run_toml(minutes, pace, member), encoding="utf-8")
-        if out.exists():
-            shutil.rmtree(out)
-        work.rename(out)
-    finally:
-        shutil.rmtree(work, ignore_errors=True)
 
 
 def frames_of(sample: stored.Sample, minutes: NDArray[np.int64]) -> Iterator[tuple[NDArray, ...]]:
@@ -135,7 +130,7 @@ def _refuse_strangers(out: Path) -> None:
     except (OSError, ValueError):
         ours = False
     if not ours:
-        raise input_error(out, "exists and is not a sample run; name another folder or remove this one")
+        raise input_error(out, "exists and is not a sample run; name another folder")
 
 
 def _static(sample: stored.Sample) -> dict[str, NDArray]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import argument_types as types
 from .. import limits
-from ..command import SCENES, Command, amend
+from ..command import SCENES, Command, add_overwrite, amend
 from ..stations.records import EXERCISE
 from . import INDIRECT, LIMITS, RADIUS
 
@@ -103,6 +103,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
         "--geojson", metavar="FILE", type=types.path, help="also write lines and resources for maps"
     )
     parser.add_argument("--json", action="store_true", help="write JSON")
+    add_overwrite(parser)
 
 
 def parse_response(text: str) -> dict[str, int]:
@@ -149,7 +150,7 @@ def _run(arguments: argparse.Namespace) -> None:
     """
     import json
 
-    from .. import files
+    from .. import output
     from ..errors import Error
     from ..progress import result
     from ..run import readers, times
@@ -157,6 +158,8 @@ def _run(arguments: argparse.Namespace) -> None:
     from .control_line import LineOptions
     from .problem import Request
 
+    if arguments.geojson is not None:
+        output.check(arguments.geojson, arguments.overwrite)
     run = readers.open(arguments.run)
     start = arguments.start or times.utc(run, job.default_order_time(run))
     units, left_out = read.read(arguments.stations, start)
@@ -173,7 +176,8 @@ def _run(arguments: argparse.Namespace) -> None:
     lines = amend(arguments, Suggested(run, suggestion, drawn)).lines
     suggestion["left_out"] += left_out
     if arguments.geojson is not None:
-        files.write_text(arguments.geojson, json.dumps(drawn, separators=(",", ":")) + "\n")
+        text = json.dumps(drawn, separators=(",", ":")) + "\n"
+        output.write_text(arguments.geojson, text, arguments.overwrite)
     result(json.dumps(suggestion, indent=1) if arguments.json else page.format_text(suggestion, lines))
     if suggestion["reasons"]:
         raise Error("; ".join(suggestion["reasons"]))

@@ -6,7 +6,7 @@ import argparse
 import re
 
 from .. import argument_types as types
-from ..command import RUNS, Command, amend
+from ..command import RUNS, Command, add_overwrite, amend
 
 LIMIT = 32_000_000  # bytes
 PAPERS = ("a4", "a3", "letter", "tabloid")
@@ -65,6 +65,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
         type=types.path,
         help="also write the map sheet with coordinates, by GDAL (none)",
     )
+    add_overwrite(parser)
     _add_sheet(parser)
 
 
@@ -117,7 +118,7 @@ def _run(arguments: argparse.Namespace) -> None:
     UsageError
         The name of the page does not end in .html, or its limit is too small for any content.
     """
-    from .. import files, html_text
+    from .. import html_text, output
     from ..errors import UsageError
     from ..progress import READING, notify_if_slow, result, say
     from . import briefing, context, map_sheet, page, pdf, sheet_options
@@ -126,6 +127,8 @@ def _run(arguments: argparse.Namespace) -> None:
         raise UsageError(f"--out: {arguments.out} does not end in .html; name an .html file")
     page.check_limit(arguments.limit)
     pdf.check(arguments.pdf, arguments.geopdf)
+    for path in filter(None, (arguments.out, arguments.pdf, arguments.geopdf)):
+        output.check(path, arguments.overwrite)
     if arguments.period and arguments.period[0] >= arguments.period[1]:
         raise UsageError("--period: its first time is not before its last; give the first time first")
     request = briefing.Request(
@@ -142,16 +145,17 @@ def _run(arguments: argparse.Namespace) -> None:
     for note in page.notes(gathered):
         say(note)
     made = page.html(gathered, arguments.limit)
-    files.write_text(arguments.out, made, newline="\n")
+    output.write_text(arguments.out, made, arguments.overwrite, newline="\n")
     say(f"wrote one file of {html_text.size(len(made.encode()))}, which loads no other files")
     result(arguments.out)
     if arguments.pdf:
-        pdf.write(arguments.out, arguments.pdf)
+        pdf.write(arguments.out, arguments.pdf, arguments.overwrite)
         result(arguments.pdf)
     if arguments.geopdf:
         titles = sheet_options.Titles.of(gathered.run, gathered.sheet, gathered.zone)
         sheet = map_sheet.draw(gathered, gathered.sheet, titles)
-        pdf.write_geopdf(sheet, titles.incident, titles.author, arguments.geopdf)
+        titled = titles.incident, titles.author
+        pdf.write_geopdf(sheet, *titled, arguments.geopdf, arguments.overwrite)
         result(arguments.geopdf)
 
 

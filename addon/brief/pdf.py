@@ -10,7 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from .. import files
+from .. import output
 from ..errors import UsageError
 from .map_sheet import MapSheet
 
@@ -60,7 +60,7 @@ def check(pdf: Path | None, geopdf: Path | None) -> None:
         )
 
 
-def write(page: Path, path: Path) -> None:
+def write(page: Path, path: Path, overwrite: bool = False) -> None:
     """Print a page to a PDF.
 
     Raises
@@ -69,17 +69,18 @@ def write(page: Path, path: Path) -> None:
         The browser fails.
     """
     if browser := find_browser():
-        files.write(
+        output.write(
             path,
             lambda part: _browse(browser, page, part, "--no-pdf-header-footer", f"--print-to-pdf={part}"),
+            overwrite,
         )
         return
     import weasyprint
 
-    files.write(path, lambda part: weasyprint.HTML(filename=str(page)).write_pdf(str(part)))
+    output.write(path, lambda part: weasyprint.HTML(filename=str(page)).write_pdf(str(part)), overwrite)
 
 
-def write_geopdf(sheet: MapSheet, title: str, author: str, path: Path) -> None:
+def write_geopdf(sheet: MapSheet, title: str, author: str, path: Path, overwrite: bool = False) -> None:
     """Write the map sheet as a picture in a PDF with coordinates.
 
     Raises
@@ -100,10 +101,12 @@ def write_geopdf(sheet: MapSheet, title: str, author: str, path: Path) -> None:
         scale = _DPI / _CSS_DPI
         options = (f"--window-size={width},{height}", f"--force-device-scale-factor={scale:.6f}")
         _browse(browser, page, picture, "--hide-scrollbars", *options, f"--screenshot={picture}")
-        georeference(picture, sheet, title, author, path)
+        georeference(picture, sheet, title, author, path, overwrite)
 
 
-def georeference(picture: Path, sheet: MapSheet, title: str, author: str, path: Path) -> None:
+def georeference(
+    picture: Path, sheet: MapSheet, title: str, author: str, path: Path, overwrite: bool = False
+) -> None:
     """Write a picture of the sheet as a GeoPDF (ISO 32000); the neat line is the frame of the map."""
     import numpy as np
     import rasterio
@@ -145,7 +148,7 @@ def georeference(picture: Path, sheet: MapSheet, title: str, author: str, path: 
                 **options,
             )
 
-        files.write(path, put)
+        output.write(path, put, overwrite)
 
 
 def _has_driver() -> bool:

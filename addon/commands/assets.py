@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from .. import argument_types as types
-from ..command import SCENES, Command
+from ..command import SCENES, Command, add_overwrite
 from ..progress import Reporter, count, result, say
 
 _DETAIL = """\
@@ -21,6 +21,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
         "scene", metavar="SCENE.toml", nargs="?", type=types.path, help="scene file (sample run)"
     )
     parser.add_argument("--out", metavar="DIR", type=types.path, required=True, help="folder of the library")
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
@@ -39,7 +40,8 @@ def _run(arguments: argparse.Namespace) -> None:
             sample.write(Path(folder) / "sample", 13)
             scene = Path(folder) / "scene.toml"
             scene.write_text(assets.SCENE, encoding="utf-8")
-        number = assets.run(ShotSource(scene=str(scene)), arguments.out, Reporter(), say)
+        source = ShotSource(scene=str(scene))
+        number = assets.run(source, arguments.out, Reporter(), say, overwrite=arguments.overwrite)
     say(f"{count(number, 'asset')} in {arguments.out}")
     result(arguments.out / assets.BLEND)
 

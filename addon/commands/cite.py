@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import argument_types as types
-from ..command import RUNS, Command
+from ..command import RUNS, Command, add_overwrite
 from ..progress import Reporter, result
 from ._scene_runs import is_scene, list_runs
 
@@ -34,6 +34,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--license", metavar="URL", default="", dest="licence", help="licence of the film, for --crate"
     )
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
@@ -48,7 +49,7 @@ def _run(arguments: argparse.Namespace) -> None:
         shot = ShotSource(scene=str(arguments.run)).shot()
         rows = _sources(shot)
         if arguments.crate:
-            result(_write_crate(shot, rows, arguments.crate, arguments.licence))
+            result(_write_crate(shot, rows, arguments))
             return
     else:
         rows = citations.of_run(readers.open(arguments.run))
@@ -69,13 +70,15 @@ def _sources(shot: Shot) -> list[dict[str, str]]:
     return list({row["text"]: row for row in rows}.values())
 
 
-def _write_crate(shot: Shot, rows: list[dict[str, str]], out: Path, licence: str) -> Path:
+def _write_crate(shot: Shot, rows: list[dict[str, str]], arguments: argparse.Namespace) -> Path:
     """Describe the files of a film for archives."""
+    from .. import output
     from ..render import crate, manifest
     from ..run import content, methods
     from ..shot import scene_inputs
 
-    terrain = shot.settings.terrain
+    out, terrain = arguments.crate, shot.settings.terrain
+    output.check(out / crate.NAME, arguments.overwrite)
     report = Reporter("input hashes")
     runs = {
         label: (run.name, content.inputs(run, shot.settings.cache, (), report))
@@ -86,7 +89,8 @@ def _write_crate(shot: Shot, rows: list[dict[str, str]], out: Path, licence: str
         sentences=scene_inputs.sentences(shot.settings),
         rendered=manifest.versions(manifest.read(out)["settings"].values()),
     )
-    return crate.write(out, runs, methods.paragraph(shot.run, inputs), rows, licence)
+    text = methods.paragraph(shot.run, inputs)
+    return crate.write(out, runs, text, rows, arguments.licence, arguments.overwrite)
 
 
 COMMAND = Command("cite", "list the sources to cite with a run or a film", _DETAIL, RUNS, _run, _add)

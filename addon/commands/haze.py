@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import RUNS, Command
+from ..command import RUNS, Command, add_overwrite
 from ..progress import result
 
 _DETAIL = """\
@@ -30,6 +30,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", type=types.path, help="folder for a map of the smoke's column mass"
     )
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
@@ -51,7 +52,7 @@ def _run(arguments: argparse.Namespace) -> None:
 
         text = f"forecast of {times.text(chosen.issued, clock)} for {times.text(chosen.valid, clock)}"
         path = arguments.out / f"smoke_{chosen.valid:%Y%m%dT%H%MZ}.png"
-        maps.save(maps.smoke_map(run, chosen.column, text), path)
+        maps.save(maps.smoke_map(run, chosen.column, text), path, arguments.overwrite)
         result(path)
 
 

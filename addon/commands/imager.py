@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import RUNS, Command
+from ..command import RUNS, Command, add_overwrite
 from ..progress import Reporter, result
 
 _DETAIL = """\
@@ -39,10 +39,12 @@ def _add(parser: argparse.ArgumentParser) -> None:
         default=900,
         help="model time between pictures, s (900)",
     )
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
     """Write the simulated measurements of a satellite's imager."""
+    from .. import output
     from ..errors import UsageError, input_error
     from ..run import readers, times
     from ..shot.satellites import geotiff, imager
@@ -51,12 +53,15 @@ def _run(arguments: argparse.Namespace) -> None:
     instrument = imager.INSTRUMENTS[arguments.instrument]
     moments = imager.times(run, arguments.every)
     report = Reporter("pictures")
+    names = [f"{instrument.name}_{times.utc(run, time):%Y%m%dT%H%M}Z.tif" for time in moments]
+    for name in names:
+        output.check(arguments.out / name, arguments.overwrite)
     try:
         for done, (time, picture) in enumerate(imager.film(instrument, run, arguments.longitude, moments)):
             report(done, len(moments))
             moment = times.utc(run, time)
-            path = arguments.out / f"{instrument.name}_{moment:%Y%m%dT%H%M}Z.tif"
-            geotiff.write(path, picture, instrument, run.name, moment)
+            path = arguments.out / names[done]
+            geotiff.write(path, picture, instrument, run.name, moment, arguments.overwrite)
             result(path)
     except imager.HorizonError as error:
         raise UsageError(f"--longitude: {error}") from None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import RUNS, Command
+from ..command import RUNS, Command, add_overwrite
 from ..progress import result, say
 
 _DETAIL = """\
@@ -26,6 +26,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="observed perimeters to draw (RUN/observations)",
     )
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
@@ -37,7 +38,8 @@ def _run(arguments: argparse.Namespace) -> None:
     from ..run import maps, observations, zone
 
     observed = observations.read(arguments.against or observations.beside(arguments.run))
-    for path in maps.draw(run, arguments.out, zone.time_zone(run), observed):
+    clock = zone.time_zone(run)
+    for path in maps.draw(run, arguments.out, clock, observed, overwrite=arguments.overwrite):
         result(path)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import SCENES, Command
+from ..command import SCENES, Command, add_overwrite
 from ..progress import result
 
 _DETAIL = """\
@@ -24,22 +24,21 @@ def _add(parser: argparse.ArgumentParser) -> None:
     for name, word in (("start", "first"), ("end", "last")):
         text = f"model time of the {word} frame, such as 2014-09-17T16:00-07:00 (fitted)"
         parser.add_argument(f"--{name}", metavar="TIME", type=types.moment, help=text)
-    parser.add_argument("--overwrite", action="store_true", help="replace an existing file")
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
     """Write a scene file that fits a run."""
-    from .. import files
+    from .. import output
     from ..auto_framing import fitted_scene
     from ..errors import UsageError
 
     if arguments.out.suffix != ".toml":
         raise UsageError(f"-o: {arguments.out} does not end in .toml; name a .toml file")
-    if arguments.out.exists() and not arguments.overwrite:
-        raise UsageError(f"-o: {arguments.out} exists already; choose another name, or add --overwrite")
+    output.check(arguments.out, arguments.overwrite)
     asked = arguments.start, arguments.end
     text = fitted_scene.fit_text(arguments.run, arguments.out, arguments.out.parent / "cache", asked)
-    files.write_text(arguments.out, text)
+    output.write_text(arguments.out, text, arguments.overwrite)
     result(arguments.out)
 
 

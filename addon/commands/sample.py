@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import RUNS, Command
+from ..command import RUNS, Command, add_overwrite
 from ..progress import Reporter, result, say
 
 _DETAIL = """\
@@ -32,6 +32,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--member", metavar="I", type=types.count, default=0, help="write the run of member I (0)"
     )
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
@@ -41,7 +42,7 @@ def _run(arguments: argparse.Namespace) -> None:
     say(f"writing the synthetic King-like run to {arguments.out}")
     report = Reporter("model times")
     options = arguments.frames, arguments.format, report, arguments.pace, arguments.member
-    sample.write(arguments.out, *options)
+    sample.write(arguments.out, *options, overwrite=arguments.overwrite)
     result(arguments.out)
 
 

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 from .. import argument_types as types
-from ..command import RUNS, Command
+from ..command import RUNS, Command, add_overwrite
 from ..progress import result, say
 from ._scene_runs import is_scene, open_runs
 
@@ -44,11 +44,12 @@ def _add(parser: argparse.ArgumentParser) -> None:
         help="write an HTML report with maps and curves (none)",
     )
     parser.add_argument("--json", action="store_true", help="write JSON")
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
     """Compare a run with observations of its fire."""
-    from .. import files
+    from .. import output
     from ..errors import Error, UsageError, input_error
     from ..run import observations, readers, zone
     from ..run import score as scores
@@ -65,6 +66,8 @@ def _run(arguments: argparse.Namespace) -> None:
         raise UsageError("--against: accepts one other run; remove the others")
     if arguments.report and arguments.report.suffix.lower() != ".html":
         raise UsageError(f"--report: {arguments.report} does not end in .html; name an .html file")
+    if arguments.report:
+        output.check(arguments.report, arguments.overwrite)
     observed = observations.read(each for each in named if observations.is_one(each))
     if observed.heat and not (observed.perimeters or observed.detections or runs):
         raise input_error(named[0], "has detections but no perimeter; name a file with a perimeter")
@@ -74,7 +77,7 @@ def _run(arguments: argparse.Namespace) -> None:
         from ..run.score import report
 
         text = report.html(run, comparison, observed, *runs)
-        files.write_text(arguments.report, text)
+        output.write_text(arguments.report, text, arguments.overwrite)
         say(f"wrote {arguments.report}")
     if not runs and (none := used.nothing(comparison["uses"])):
         raise Error(none)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import SCENES, Command, add_scene, add_verb
+from ..command import SCENES, Command, add_overwrite, add_scene, add_verb
 from . import _tile_access
 
 _DETAIL = """\
@@ -46,6 +46,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
     )
     text = "credit of the data (default: run and orthophoto)"
     make.add_argument("--credit", metavar="TEXT", default="", help=text)
+    add_overwrite(make)
 
 
 def _run(arguments: argparse.Namespace) -> None:
@@ -66,7 +67,12 @@ def _make(arguments: argparse.Namespace) -> None:
     from ..progress import Reporter, count, result, say, size
 
     request = make.TilesRequest(
-        arguments.out, arguments.levels, arguments.buildings, arguments.geoid, arguments.credit
+        arguments.out,
+        arguments.levels,
+        arguments.buildings,
+        arguments.geoid,
+        arguments.credit,
+        arguments.overwrite,
     )
     choice, reporter = fitted_scene.find_source(arguments), Reporter("tiles")
     imagery.prepare(choice, (), reporter, say)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import SCENES, Command, add_scene
+from ..command import SCENES, Command, add_overwrite, add_scene
 from ..progress import result
 
 _DETAIL = """\
@@ -18,11 +18,12 @@ def _add(parser: argparse.ArgumentParser) -> None:
     add_scene(parser)
     parser.add_argument("--camera", metavar="NAME", type=types.name, help="name of the camera (the first)")
     parser.add_argument("--out", metavar="FILE.gpx", type=types.path, required=True, help="file to write")
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
     """Write a camera's path as a GPX track."""
-    from .. import files
+    from .. import output
     from ..auto_framing import fitted_scene
     from ..errors import UsageError
     from ..shot import comparison
@@ -30,6 +31,7 @@ def _run(arguments: argparse.Namespace) -> None:
 
     if arguments.out.suffix.lower() != ".gpx":
         raise UsageError(f"--out: {arguments.out} does not end in .gpx; name a .gpx file")
+    output.check(arguments.out, arguments.overwrite)
     shot = fitted_scene.find_source(arguments).shot()
     names = [camera.name for camera in shot.settings.cameras]
     if not names:
@@ -38,7 +40,7 @@ def _run(arguments: argparse.Namespace) -> None:
     (view,) = alone.paths
     moments = [alone.utc(frame) for frame in range(1, alone.frames.count + 1)]
     text = track_xml.gpx_text(view.camera.name, *alone.local_frame.reverse(view.position), moments)
-    files.write_text(arguments.out, text)
+    output.write_text(arguments.out, text, arguments.overwrite)
     result(arguments.out)
 
 

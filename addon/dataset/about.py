@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from .. import files
+from .. import output
 from ..errors import input_error, reading
 
 NAME = "dataset.json"
@@ -42,9 +42,9 @@ class About:
     units: Mapping[str, str] = field(default_factory=dict)
 
 
-def write(folder: Path, about: About) -> Path:
+def write(folder: Path, about: About, overwrite: bool = False) -> Path:
     """Write the facts; equal facts give equal bytes."""
-    files.write_text(folder / NAME, json.dumps(asdict(about), indent=1) + "\n")
+    output.write_text(folder / NAME, json.dumps(asdict(about), indent=1) + "\n", overwrite)
     return folder / NAME
 
 

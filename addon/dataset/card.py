@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from .. import files
+from .. import output
 from ..progress import count
 from . import licences, table
 from .about import About
@@ -20,9 +20,9 @@ _TASKS = "object-detection", "image-segmentation", "depth-estimation"
 _SIZES = (1000, "n<1K"), (10_000, "1K<n<10K"), (100_000, "10K<n<100K")
 
 
-def write(folder: Path, about: About, samples: Sequence[Truth]) -> None:
+def write(folder: Path, about: About, samples: Sequence[Truth], overwrite: bool = False) -> None:
     """Write the card."""
-    files.write_text(folder / NAME, text(folder, about, samples), "\n")
+    output.write_text(folder / NAME, text(folder, about, samples), overwrite, "\n")
 
 
 def text(folder: Path, about: About, samples: Sequence[Truth]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import FILMS, Command, add_verb
+from ..command import FILMS, Command, add_overwrite, add_verb
 
 VERBS = ("make", "formats", "check", "draw")
 _MAKE = VERBS[0]
@@ -56,6 +56,8 @@ def _add(parser: argparse.ArgumentParser) -> None:
     )
     help = "samples to draw, such as 0137 or 1-20 (24 of them)"
     draw.add_argument("--only", metavar="LIST", default="", help=help)
+    for each in (make, formats, draw):
+        add_overwrite(each)
     for each in (formats, check, draw):
         each.add_argument("folder", metavar="DIR", type=types.path, help="folder of the data set")
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from .. import files
+from .. import output
 from . import table, truth
 from .about import About
 from .files import CONTENT, KINDS
@@ -47,7 +47,13 @@ LIMITS = (
 )
 
 
-def write(folder: Path, about: About, hashes: Mapping[str, str], licences: Mapping[str, str]) -> None:
+def write(
+    folder: Path,
+    about: About,
+    hashes: Mapping[str, str],
+    licences: Mapping[str, str],
+    overwrite: bool = False,
+) -> None:
     """Write the metadata.
 
     Parameters
@@ -58,7 +64,8 @@ def write(folder: Path, about: About, hashes: Mapping[str, str], licences: Mappi
         Licence of each source.
     """
     content = document(folder, about, hashes[table.NAME], licences)
-    files.write_text(folder / NAME, json.dumps(content, indent=1, ensure_ascii=False) + "\n", "\n")
+    text = json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+    output.write_text(folder / NAME, text, overwrite, "\n")
 
 
 def document(folder: Path, about: About, table_hash: str, licences: Mapping[str, str]) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import files as atomic
+from .. import output
 from ..errors import UsageError, input_error
 from ..geometry.grids import dilate
 from ..geometry.rectangles import common_area
@@ -51,7 +51,7 @@ def draw_sample(folder: Path, index: int, kind: str = "images") -> Picture:
     return draw(files.read(folder, kind, index), truth.read(folder, index), files.read_masks(folder, index))
 
 
-def write(folder: Path, only: str, out: Path) -> Iterator[Path]:
+def write(folder: Path, only: str, out: Path, overwrite: bool = False) -> Iterator[Path]:
     """Draw the labels of samples of a data set into files ``000137.png`` of a folder, and yield their paths.
 
     Parameters
@@ -62,7 +62,7 @@ def write(folder: Path, only: str, out: Path) -> Iterator[Path]:
     Raises
     ------
     InputError
-        The folder has no data set, or a file is missing or damaged.
+        The folder has no data set, a file is missing or damaged, or a file of others is in the way.
     UsageError
         The list is invalid.
     """
@@ -71,9 +71,11 @@ def write(folder: Path, only: str, out: Path) -> Iterator[Path]:
     known = list(truth.indices(folder))
     if not known:
         raise input_error(folder, "has no samples; make some with: firetwin dataset PLAN.toml --out DIR")
-    for index in _chosen(known, only):
-        picture, path = draw_sample(folder, index), out / f"{truth.stem(index)}.png"
-        atomic.write(path, Image.fromarray(picture).save)
+    paths = {index: out / f"{truth.stem(index)}.png" for index in _chosen(known, only)}
+    for path in paths.values():
+        output.check(path, overwrite)
+    for index, path in paths.items():
+        output.write(path, Image.fromarray(draw_sample(folder, index)).save, overwrite)
         yield path
 
 

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..did_you_mean import suggestion
+from ..errors import input_error
 from ..jobs import convert as job
+from ..output import is_plain_name
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..run import collections
 from .plan import Plan
@@ -43,7 +45,15 @@ def fault(path: Path, wanted: Sequence[str]) -> str | None:
 
 
 def folder(path: Path, member: str) -> Path:
-    """Return the folder of the run of a member, next to its ensemble."""
+    """Return the folder of the run of a member, next to its ensemble.
+
+    Raises
+    ------
+    InputError
+        The name of the member is no name of a folder.
+    """
+    if not is_plain_name(member):
+        raise input_error(path, f"has a member {member!r}, which is no name of a folder; rename it")
     return path.parent / f"{path.name}_members" / member
 
 

@@ -12,14 +12,14 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .. import leases
+from .. import leases, output
 from ..database import Database
-from ..errors import UsageError, writing
+from ..errors import UsageError, input_error, writing
 from ..leases import Leases, new_owner
 from ..progress import MessageCallback, Progress, duration, no_message, silent
 from ..shot.schema import scene_text
 from ..shot.schema.frame_list import FrameList
-from . import about, files, imagery, places, record
+from . import about, files, imagery, places, record, truth
 from .about import About
 from .distributions import VALUES
 from .draw import Draw
@@ -108,20 +108,26 @@ def prepare(plan: Plan, out: Path, only: str = "", progress: Progress = silent) 
 
 
 def run(
-    production: Production, make: Maker, progress: Progress = silent, tell: MessageCallback = no_message
+    production: Production,
+    make: Maker,
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+    overwrite: bool = False,
 ) -> None:
     """Make the missing samples; several processes may do so at the same time.
 
     Raises
     ------
     InputError
-        The folder has another data set, the disk is full, or a file cannot be written.
+        The folder has another data set or files of others, the disk is full, or a file cannot be written.
     """
     out = production.out
+    _refuse_others(out)
+    output.check(out / about.NAME, overwrite)
     with writing(out):
         out.mkdir(parents=True, exist_ok=True)
     record.write(out, record.describe(production.plan, out / WORK))
-    about.write(out, _about(production.plan))
+    about.write(out, _about(production.plan), overwrite)
     with _open_leases(out) as held:
         _produce(production, held, make, progress, tell)
 
@@ -159,6 +165,23 @@ def _produce(
                     raise RuntimeError(f"sample {still[0]} was not written")
         finally:
             held.release(_name(visit))
+
+
+def _refuse_others(out: Path) -> None:
+    """Refuse folders of samples that are links, or that others wrote.
+
+    Raises
+    ------
+    InputError
+        There is one.
+    """
+    output.refuse_run_folders(out / record.NAME)
+    is_ours = (out / record.NAME).is_file()
+    for path in (out / name for name in (*files.KINDS, truth.FOLDER, WORK)):
+        if path.is_symlink():
+            raise input_error(path, "is a link, which is not followed; choose another folder for --out")
+        if path.exists() and not is_ours and path.name != WORK:
+            raise input_error(path, "belongs to no data set of Firetwin; choose another folder for --out")
 
 
 def _about(plan: Plan) -> About:

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from .. import files
+from .. import output
 from ..errors import input_error, reading
 from ..render import fingerprint
 from ..run import content
@@ -55,7 +55,7 @@ def write(out: Path, record: dict[str, Any]) -> None:
     """
     path = out / NAME
     if not path.exists():
-        files.write_text(path, json.dumps(record, indent=1) + "\n")
+        output.write_text(path, json.dumps(record, indent=1) + "\n")
         return
     former = read(out)
     if former != record:

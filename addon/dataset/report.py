@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .. import files
+from .. import output
 from ..html_text import data_uri, quote
 from ..progress import count
 from . import draw_labels, histogram, licences, table
@@ -37,9 +37,9 @@ _LABELS = {
 }
 
 
-def write(folder: Path, about: About, samples: Sequence[Truth]) -> None:
+def write(folder: Path, about: About, samples: Sequence[Truth], overwrite: bool = False) -> None:
     """Write the report."""
-    files.write_text(folder / NAME, page(folder, about, samples), "\n")
+    output.write_text(folder / NAME, page(folder, about, samples), overwrite, "\n")
 
 
 def page(folder: Path, about: About, samples: Sequence[Truth]) -> str:

@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from .. import files
+from .. import output
 from ..errors import reading
 
 NAME = "SHA256SUMS"
@@ -40,10 +40,11 @@ def _name(path: str) -> str:
     return path.rpartition("/")[2]
 
 
-def write(folder: Path) -> dict[str, str]:
+def write(folder: Path, overwrite: bool = False) -> dict[str, str]:
     """Write the hash of each file, and return them by path."""
     found = {path: digest(folder / path) for path in paths(folder)}
-    files.write_text(folder / NAME, "".join(f"{value}  {path}\n" for path, value in found.items()), "\n")
+    text = "".join(f"{value}  {path}\n" for path, value in found.items())
+    output.write_text(folder / NAME, text, overwrite, "\n")
     return found
 
 

@@ -7,7 +7,7 @@ import io
 from collections.abc import Sequence
 from pathlib import Path
 
-from .. import files
+from .. import output
 from .formats import common
 from .truth import CATEGORIES, Truth
 
@@ -32,13 +32,13 @@ COLUMNS = {
 _FIRE, _SMOKE = (each.id for each in CATEGORIES[:2])
 
 
-def write(folder: Path, samples: Sequence[Truth]) -> None:
+def write(folder: Path, samples: Sequence[Truth], overwrite: bool = False) -> None:
     """Write the table."""
     text = io.StringIO()
     rows = csv.DictWriter(text, list(COLUMNS), lineterminator="\n")
     rows.writeheader()
     rows.writerows(_row(truth) for truth in samples)
-    files.write_text(folder / NAME, text.getvalue(), "\n")
+    output.write_text(folder / NAME, text.getvalue(), overwrite, "\n")
 
 
 def kind(truth: Truth) -> str:

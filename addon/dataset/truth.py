@@ -15,6 +15,7 @@ from typing import Any
 
 from .. import files
 from ..errors import input_error, reading
+from ..output import is_plain_name
 from ..passes import masks
 
 FORMAT = "firetwin sample 1"
@@ -277,14 +278,29 @@ def indices(folder: Path) -> Iterator[int]:
 
 
 def from_json(content: Mapping[str, Any]) -> Truth:
-    """Make a truth from the content of its file; unknown keys are ignored."""
+    """Make a truth from the content of its file; unknown keys are ignored.
+
+    Raises
+    ------
+    ValueError
+        A path leads out of the data set.
+    """
     values = _known(Truth, content)
     for name in ("annotations", "below_size"):
         values[name] = tuple(_annotation(each) for each in content.get(name, ()))
     for name in ("front", "horizon"):
         values[name] = [[(x, y) for x, y in line] for line in content.get(name, ())]
+    if (split := content.get("split", "")) and not is_plain_name(split):
+        raise ValueError(split)
+    if not all(map(_is_within, content.get("files", {}).values())):
+        raise ValueError("a file outside of the data set")
     values["camera"] = CameraPose(**_known(CameraPose, content["camera"]))
     return Truth(**values)
+
+
+def _is_within(path: str) -> bool:
+    """Check that a path leads to a file within the folder of the data set."""
+    return all(map(is_plain_name, path.split("/")))
 
 
 def _annotation(content: Mapping[str, Any]) -> Annotation:

@@ -21,12 +21,13 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.verb == "check":
         return _check(arguments.folder)
     if arguments.verb == "draw":
-        for path in draw_labels.write(arguments.folder, arguments.only, arguments.out):
+        drawn = draw_labels.write(arguments.folder, arguments.only, arguments.out, arguments.overwrite)
+        for path in drawn:
             result(path)
         return 0
     names = formats.names(arguments.format)
     if arguments.verb == "formats":
-        finish_set(arguments.folder, names)
+        finish_set(arguments.folder, names, arguments.overwrite)
         return 0
     production = prepare(arguments.plan, arguments.out, arguments.only)
     if arguments.estimate and arguments.json:
@@ -38,11 +39,11 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     for line in lines:
         say(line)
-    make(production)
+    make(production, arguments.overwrite)
     if arguments.only:
         result(arguments.out)
         return 0
-    finish_set(arguments.out, names)
+    finish_set(arguments.out, names, arguments.overwrite)
     return 0
 
 
@@ -55,11 +56,11 @@ def prepare(path: Path, out: Path, only: str = "") -> Production:
     return produce.prepare(plan, out, only, Reporter())
 
 
-def make(production: Production) -> None:
+def make(production: Production, overwrite: bool = False) -> None:
     """Make the missing samples of a production, and show the progress."""
     reporter = Reporter(produce.SAMPLES)
     try:
-        produce.run(production, sample_job.make, reporter, say)
+        produce.run(production, sample_job.make, reporter, say, overwrite)
     finally:
         reporter.close()
 
@@ -107,9 +108,9 @@ def _check(folder: Path) -> int:
     return 1 if faults else 0
 
 
-def finish_set(out: Path, names: tuple[str, ...]) -> None:
+def finish_set(out: Path, names: tuple[str, ...], overwrite: bool = False) -> None:
     """Write formats, card, report and hashes of a data set; one process at a time."""
     with produce.alone(out, "finish"):
         produce.remove_parts(out)
-        for path in finish.write(out, names, say):
+        for path in finish.write(out, names, say, overwrite):
             result(path)

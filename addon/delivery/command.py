@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import FILMS, Command
+from ..command import FILMS, Command, add_overwrite
 
 PATTERN = "{camera}/{pass}/{camera}_{pass}.{frame}.{ext}"
 
@@ -31,6 +31,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--version", dest="number", metavar="N", type=types.count, help="number of the version (the next)"
     )
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
@@ -42,7 +43,8 @@ def _run(arguments: argparse.Namespace) -> None:
     found = names.choose(arguments.film, arguments.pattern, arguments.start)
     for text in found.messages:
         say(text)
-    made = version.write(arguments.out, found, arguments.number, Reporter("copying"))
+    reporter = Reporter("copying")
+    made = version.write(arguments.out, found, arguments.number, reporter, arguments.overwrite)
     say(f"delivered {count(len(found.files), 'file')} of {size(sum(each.bytes for each in found.files))}")
     result(made)
 

@@ -17,6 +17,8 @@ from ..shot import passes
 _FIELDS = ("camera", "pass", "version", "frame", "ext")
 _FRAME = re.compile(r"[._-]?\{frame\}")  # films have no frame number
 _DIGITS = 4
+_VALUE = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9_.-]*")
+"""Values of a manifest that may stand in a file name, after `passes.file_stem`."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +93,7 @@ def choose(out: Path, pattern: str, start: int) -> Selection:
     Raises
     ------
     InputError
-        The folder has no finished files.
+        The folder has no finished files, or its manifest has values that are no part of a file name.
     UsageError
         The pattern gives two files the same name.
     """
@@ -106,7 +108,7 @@ def choose(out: Path, pattern: str, start: int) -> Selection:
         chosen.append(
             File(
                 source,
-                _name(pattern, path, entry, start),
+                _name(pattern, path, _checked(out, path, entry), start),
                 entry["bytes"],
                 entry["sha256"],
                 dict(_facts(path, entry, start)),
@@ -123,6 +125,25 @@ def choose(out: Path, pattern: str, start: int) -> Selection:
         [f"{count(len(missing), 'file')} of the manifest missing, such as {missing[0]}"] if missing else []
     )
     return Selection(chosen, messages)
+
+
+def _checked(out: Path, path: str, entry: dict[str, Any]) -> dict[str, Any]:
+    """Check the values of an entry that become parts of file names, and return the entry.
+
+    Raises
+    ------
+    InputError
+        One is no part of a file name, such as ``../x``.
+    """
+    values = [entry["camera"], entry["pass"], PurePosixPath(path).suffix[1:], entry.get("film") or "review"]
+    texts = [passes.file_stem(each) if isinstance(each, str) else "" for each in values]
+    number = entry.get("frame")
+    if all(map(_VALUE.fullmatch, texts)) and (number is None or type(number) is int):
+        return entry
+    raise input_error(
+        out / manifest.NAME,
+        f"names {path!r} with values that are no parts of a file name; render it again with --resume",
+    )
 
 
 def _name(pattern: str, path: str, entry: dict[str, Any], start: int) -> str:

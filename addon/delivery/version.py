@@ -1,4 +1,7 @@
-"""Version folder of a delivery: complete or missing, never overwritten, with hashes of its files."""
+"""Version folder of a delivery: complete or missing, never overwritten, with hashes of its files.
+
+A version's number is taken when its copy begins, so two deliveries at the same time get different numbers.
+"""
 
 from __future__ import annotations
 
@@ -7,20 +10,27 @@ import hashlib
 import json
 import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
-from .. import files
+from .. import files, output, staging
 from ..errors import UsageError, input_error, writing
 from ..progress import Progress, silent
-from ..staging import new_folder
 from .names import File, Selection
 
 MANIFEST, SUMS, LATEST = "manifest.json", "SHA256SUMS", "latest"
 _FORMAT = 1
 _BLOCK = 1 << 22  # bytes
+_VERSION = r"v(\d{3,})"
 
 
-def write(out: Path, chosen: Selection, number: int | None = None, progress: Progress = silent) -> Path:
+def write(
+    out: Path,
+    chosen: Selection,
+    number: int | None = None,
+    progress: Progress = silent,
+    overwrite: bool = False,
+) -> Path:
     """Copy files into a new version; return its folder.
 
     The files are copied into a hidden folder, which gets its name at the end. Copies, not links: a later
@@ -30,6 +40,8 @@ def write(out: Path, chosen: Selection, number: int | None = None, progress: Pro
     ----------
     number
         Number of the version; None: the next.
+    overwrite
+        Replace a link or file ``latest`` of others.
 
     Raises
     ------
@@ -38,22 +50,36 @@ def write(out: Path, chosen: Selection, number: int | None = None, progress: Pro
     InputError
         A file changed since it was rendered, the disk is full, or the folder cannot be written.
     """
-    number = max(_numbers(out), default=0) + 1 if number is None else number
-    path = out / _folder(number)
-    if path.exists():
-        raise UsageError(
-            f"--version: {path} exists, and a delivered version is never overwritten; omit --version"
-        )
-    with new_folder(path) as part:
-        delivered = {}
+    out = out.absolute()
+    _check_latest(out, overwrite)
+    with _version(out, number) as (part, path):
+        number, delivered = int(path.name[1:]), {}
         for done, each in enumerate(chosen.files):
             progress(done, len(chosen.files), "copying")
             delivered[_copy(each, part, path.name)] = each
         progress(len(chosen.files), len(chosen.files), "copying")
         _list(part, number, delivered)
     with writing(out / LATEST):
-        _point(out, _folder(max(_numbers(out))))
+        _point(out, _folder(max(_numbers(out))), overwrite)
     return path
+
+
+@contextlib.contextmanager
+def _version(out: Path, number: int | None) -> Iterator[tuple[Path, Path]]:
+    """Take a number; returns a temporary folder, and the folder that it becomes."""
+    with contextlib.ExitStack() as life:
+        with writing(out):
+            out.mkdir(parents=True, exist_ok=True)
+        with staging.locked(out, wait=True):
+            unfinished = staging.rests(out, _VERSION)
+            if number is None:
+                number = max([*_numbers(out), *(int(each[1:]) for each in unfinished)], default=0) + 1
+            path = out / _folder(number)
+            if os.path.lexists(path) or path.name in unfinished:
+                text = "exists, and a delivered version is never overwritten; omit --version"
+                raise UsageError(f"--version: {path} {text}")
+            part = life.enter_context(staging.new_folder(path))
+        yield part, path
 
 
 def _copy(each: File, part: Path, version: str) -> str:
@@ -84,7 +110,24 @@ def _list(part: Path, number: int, delivered: dict[str, File]) -> None:
     files.write_text(part / SUMS, sums, newline="\n")
 
 
-def _point(out: Path, version: str) -> None:
+def _check_latest(out: Path, overwrite: bool) -> None:
+    """Check that the link `latest`, or the file in its place, may be replaced.
+
+    Raises
+    ------
+    InputError
+        It is of others.
+    """
+    link = out / LATEST
+    output.refuse_run_folders(link)
+    if link.is_symlink():
+        if not overwrite and not re.fullmatch(_VERSION, os.readlink(link)):
+            raise input_error(link, f"is a link that firetwin deliver did not write; {output.REMEDY}")
+    elif link.exists():
+        output.check(out / f"{LATEST}.txt", overwrite)
+
+
+def _point(out: Path, version: str, overwrite: bool) -> None:
     """Point the link `latest` to a version; a text file names it where links are not possible."""
     link, part = out / LATEST, files.temporary_path(out / LATEST)
     if link.is_symlink() or not link.exists():
@@ -92,7 +135,7 @@ def _point(out: Path, version: str) -> None:
             part.symlink_to(version, target_is_directory=True)
             part.replace(link)
             return
-    files.write_text(out / f"{LATEST}.txt", f"{version}\n")
+    output.write_text(out / f"{LATEST}.txt", f"{version}\n", overwrite)
 
 
 def _folder(number: int) -> str:
@@ -101,5 +144,5 @@ def _folder(number: int) -> str:
 
 def _numbers(out: Path) -> list[int]:
     """List the numbers of the versions in a folder."""
-    found = (re.fullmatch(r"v(\d{3,})", path.name) for path in (out.iterdir() if out.is_dir() else ()))
+    found = (re.fullmatch(_VERSION, path.name) for path in (out.iterdir() if out.is_dir() else ()))
     return [int(match[1]) for match in found if match]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import FILMS, Command, add_scene
+from ..command import FILMS, Command, add_overwrite, add_scene
 
 STEM = "film"
 
@@ -32,6 +32,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--pass", dest="name", metavar="NAME", type=types.name, default="rgb", help="pass of the films (rgb)"
     )
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
@@ -42,7 +43,7 @@ def _run(arguments: argparse.Namespace) -> None:
     UsageError
         There is no such pass.
     """
-    from .. import files
+    from .. import output
     from ..auto_framing import fitted_scene
     from ..did_you_mean import suggestion
     from ..errors import UsageError
@@ -51,6 +52,8 @@ def _run(arguments: argparse.Namespace) -> None:
     from ..shot.runs import scene_runs
     from . import cut, edl, fcp_xml, markers, media, otio
 
+    for suffix in (".otio", ".xml", ".edl"):
+        output.check(arguments.out / f"{STEM}{suffix}", arguments.overwrite)
     shot = fitted_scene.find_source(arguments).shot()
     formats = {".otio": otio.text, ".xml": fcp_xml.text, ".edl": edl.text}
     known = [name for name, each in passes.known().items() if each.film]
@@ -72,7 +75,7 @@ def _run(arguments: argparse.Namespace) -> None:
     say(f"cut {clips} of {films}, {count(len(edit.markers), 'marker')}")
     for suffix, text in formats.items():
         path = arguments.out / f"{STEM}{suffix}"
-        files.write_text(path, text(edit), newline="\n")
+        output.write_text(path, text(edit), arguments.overwrite, newline="\n")
         result(path)
 
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 
 from .. import argument_types as types
-from ..command import FILMS, Command, add_scene
+from ..command import FILMS, Command, add_overwrite, add_scene
 from .formats import known
 
 _DETAIL = """\
 Writes a scene for other programs, with its place on the Earth in DIR/georeference.json. Formats:
 {formats}
 Heights of a run above sea level become heights above the WGS84 ellipsoid by the height of the geoid: --geoid,
-[tiles] geoid of the scene file, or EGM96 from a grid of this machine. Existing files with the same names are
-replaced after all new files are complete."""
+[tiles] geoid of the scene file, or EGM96 from a grid of this machine. Files of an earlier export are replaced
+after all new files are complete, unless they changed."""
 
 
 def _detail() -> str:
@@ -31,6 +31,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
         "--geoid", metavar="M", type=types.undulation, help="height of the geoid above the WGS84 ellipsoid, m"
     )
     parser.add_argument("--no-smoke", action="store_true", help="omit the smoke volumes (usd)")
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> None:
@@ -43,8 +44,9 @@ def _run(arguments: argparse.Namespace) -> None:
     source, smoke = fitted_scene.find_source(arguments), not arguments.no_smoke
     frames, reporter = arguments.frames or "", Reporter(arguments.to)
     request = ExportRequest(
-        source, arguments.to, arguments.out, frames, arguments.geoid, smoke, reporter, say
-    )
+        source, arguments.to, arguments.out, frames, arguments.geoid, smoke, reporter, say,
+        overwrite=arguments.overwrite,
+    )  # fmt: skip
     try:
         made = job.run(request)
     finally:

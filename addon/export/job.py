@@ -23,12 +23,13 @@ def run(request: ExportRequest) -> list[Path]:
     UsageError
         The list of frames is invalid.
     InputError
-        The terms of tiles that give the heights of cameras do not allow exports.
+        The terms of tiles that give the heights of cameras do not allow exports, or a file of others is in
+        the way.
     """
     source = request.source
     if source.settings().terrain.height_source == "tiles":
         selection.prepare(source, (), request.progress, request.tell, request.stop, uses=[_HEIGHTS])
-    with staging(request.folder) as folder:
+    with staging(request.folder, request.overwrite) as folder:
         staged = replace(request, folder=folder)
         _ = staged.frames  # reports an invalid list before anything is written
         staged.tell(_describe(staged.georeference))

@@ -31,6 +31,9 @@ class ExportProperties:
     export_smoke: bpy.props.BoolProperty(
         name="Smoke", description="Write the smoke volumes, in formats with volumes", default=True
     )
+    export_overwrite: bpy.props.BoolProperty(
+        name="Overwrite", description="Also replace files that changed or that Firetwin did not write"
+    )
 
 
 class FIRETWIN_OT_export_to(Working, bpy.types.Operator):
@@ -59,7 +62,12 @@ class FIRETWIN_OT_export_to(Working, bpy.types.Operator):
         if not out:
             raise Error(render.NO_OUTPUT)
         request = ExportRequest(
-            scene_file.shot_source(panel), name, Path(out), panel.export_frames, smoke=panel.export_smoke
+            scene_file.shot_source(panel),
+            name,
+            Path(out),
+            panel.export_frames,
+            smoke=panel.export_smoke,
+            overwrite=panel.export_overwrite,
         )
         made = yield InThread("exporting", lambda **callbacks: export_job.run(replace(request, **callbacks)))
         return f"Wrote {count(len(made), 'file')} to {out}"
@@ -84,6 +92,7 @@ class FIRETWIN_PT_export(SidebarPanel, bpy.types.Panel):
         column.prop(panel, "export_frames")
         if formats.known()[panel.export_to].has_smoke:
             column.prop(panel, "export_smoke")
+        column.prop(panel, "export_overwrite")
         working.draw_button(layout.row(align=True), FIRETWIN_OT_export_to, "EXPORT")
         working.draw_messages(context, layout, FIRETWIN_OT_export_to)
 

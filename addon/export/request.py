@@ -40,6 +40,8 @@ class ExportRequest:
         Function for messages.
     stop
         Token that ends worker processes.
+    overwrite
+        True if files of others are replaced (see `output`).
     """
 
     source: ShotSource
@@ -51,6 +53,7 @@ class ExportRequest:
     progress: Progress = silent
     tell: MessageCallback = no_message
     stop: Stop | None = None
+    overwrite: bool = False
 
     @cached_property
     def shot(self) -> Shot:

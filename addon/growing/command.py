@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable
 
 from .. import argument_types as types
-from ..command import RUNS, Command, Extension, add_origin
+from ..command import RUNS, Command, Extension, add_origin, add_overwrite
 from ..progress import result, say
 
 _DETAIL = """\
@@ -50,6 +50,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
         help="end if the files have not changed for this time, s (never)",
     )
     add_origin(parser)
+    add_overwrite(parser)
 
 
 def _run(arguments: argparse.Namespace) -> int:
@@ -69,6 +70,7 @@ def _run(arguments: argparse.Namespace) -> int:
         projection=arguments.projection,
         name=arguments.name,
         zone=arguments.zone,
+        overwrite=arguments.overwrite,
     )
     state = watch.run(request, say)
     result(arguments.out)

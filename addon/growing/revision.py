@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import shutil
+import re
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -20,11 +20,13 @@ from ..errors import InputError, input_error, reading
 from ..run import opening
 from ..run.models import netcdf, write
 from ..run.models.model import Model
-from ..staging import new_folder
+from ..staging import new_folder, rests
 from . import watched
 from .watched import Accepted
 
 _KEPT = 2  # revisions of a generation that stay, as a reader may have the last but one open
+_NAME = r"\d{6,}"
+"""Names of revisions."""
 _ARRIVAL = "fuel_arrival_time"
 
 Fields = dict[str, NDArray[np.float32]]
@@ -88,21 +90,39 @@ def publish(
     """
     target = watched.revision_folder(folder, new[-1].generation, new[-1].revision)
     last = watched.revision_folder(folder, before[-1].generation, before[-1].revision) if before else None
+    watched.refuse_link(target.parent)
     with new_folder(target) as part:
         _times(part, last, len(before), values, model.files[0])
         _constants(part, last, model, new[-1].moment)
         seconds = np.array([each.seconds for each in (*before, *new)])
         files.write_text(part / "run.toml", write.description(replace(model, times=seconds), inputs))
         _check(part, model)
-        shutil.rmtree(target, ignore_errors=True)  # left by a watch that was killed
+        _remove(target)  # left by a watch that was killed
     return target
 
 
 def remove_old(folder: Path, generation: int) -> None:
     """Remove revisions of a generation except the last ones."""
-    every = sorted(watched.revision_folder(folder, generation, 0).parent.glob("[0-9]*"))
+    parent = watched.revision_folder(folder, generation, 0).parent
+    if parent.is_symlink():
+        return
+    every = sorted(each for each in parent.glob("[0-9]*") if re.fullmatch(_NAME, each.name))
     for old in every[:-_KEPT]:
-        shutil.rmtree(old, ignore_errors=True)
+        _remove(old)
+
+
+def _remove(revision: Path) -> None:
+    """Remove the files of a revision, and its folders if they are then empty; files of others stay."""
+    if revision.is_symlink() or not revision.is_dir():
+        return
+    with contextlib.suppress(OSError):
+        fields = [each for each in revision.iterdir() if each.is_dir() and not each.is_symlink()]
+        for path in [each for folder in (revision, *fields) for each in folder.iterdir()]:
+            if path.name == "run.toml" or path.suffix == ".npy":
+                path.unlink()
+        for folder in (*fields, revision):
+            with contextlib.suppress(OSError):
+                folder.rmdir()
 
 
 def _times(part: Path, last: Path | None, count: int, values: list[Fields], source: Path) -> None:
@@ -157,6 +177,6 @@ def _check(part: Path, model: Model) -> None:
 
 def remove_parts(folder: Path) -> None:
     """Remove temporary folders of a killed watch."""
-    for each in folder.glob("generation_*/.*.part"):
-        with contextlib.suppress(OSError):
-            shutil.rmtree(each)
+    for each in folder.glob("generation_*"):
+        if not each.is_symlink():
+            rests(each, _NAME)

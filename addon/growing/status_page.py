@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from .. import files
+from .. import output
 from ..html_text import quote
 from ..progress import duration
 from . import watched
@@ -82,9 +82,10 @@ def create(
 
 
 def write(folder: Path, status: Status, accepted: list[Accepted]) -> None:
-    """Replace ``status.json`` and the page."""
-    files.write_text(folder / watched.STATUS, json.dumps(asdict(status), indent=1) + "\n")
-    files.write_text(folder / watched.PAGE, page(status, accepted))
+    """Replace ``status.json`` and the page, which `watched.refuse_others` checks when the watch begins."""
+    text = json.dumps(asdict(status), indent=1) + "\n"
+    output.write_text(folder / watched.STATUS, text, overwrite=True)
+    output.write_text(folder / watched.PAGE, page(status, accepted), overwrite=True)
 
 
 def describe(status: Status) -> str:

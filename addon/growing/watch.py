@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..errors import Error, UsageError, input_error
+from ..errors import Error, UsageError
 from ..jobs import worker
 from ..progress import MessageCallback, Progress, no_message, silent
 from . import model_log, stamps, states, status_page, watched
@@ -42,6 +42,8 @@ class WatchRequest:
         Time without a change of the files after which the run has ended, s; 0: never.
     start, at, projection, name, zone
         As the options of `convert`.
+    overwrite
+        Replace the files of others that `watched.refuse_others` refuses.
     """
 
     source: Path
@@ -55,6 +57,7 @@ class WatchRequest:
     projection: str = ""
     name: str = ""
     zone: str = ""
+    overwrite: bool = False
 
 
 def run(
@@ -102,8 +105,7 @@ class Watch:
             raise UsageError("--every: must be more than 0 s")
         if out.resolve() == request.source.resolve():
             raise UsageError("--out: is the folder of the model; choose another")
-        if out.exists() and not watched.is_watched(out) and (not out.is_dir() or any(out.iterdir())):
-            raise input_error(out, "already exists; remove it or choose another path")
+        watched.refuse_others(out, request.overwrite)
         revision.remove_parts(out)
         self.seen: stamps.Stamps = {}
         self.done: Any = None

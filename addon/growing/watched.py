@@ -8,7 +8,7 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from .. import files
+from .. import output
 from ..errors import input_error
 
 TIMES, STATUS, PAGE = "times.json", "status.json", "index.html"
@@ -71,6 +71,35 @@ def is_watched(folder: Path) -> bool:
     return (folder / TIMES).is_file() or (folder / STATUS).is_file()
 
 
+def refuse_others(folder: Path, overwrite: bool = False) -> None:
+    """Refuse a folder that `firetwin watch` did not write, or whose files were changed, and links in it.
+
+    Raises
+    ------
+    InputError
+        It is one.
+    """
+    for name in (TIMES, STATUS, PAGE):
+        output.check(folder / name, overwrite)
+    for path in folder.glob("generation_*"):
+        refuse_link(path)
+    is_empty = not folder.exists() or (folder.is_dir() and not any(folder.iterdir()))
+    if not (is_empty or overwrite or (is_watched(folder))):
+        raise input_error(folder, "has files, and firetwin watch did not write them; choose another folder")
+
+
+def refuse_link(path: Path) -> None:
+    """Refuse a folder that is a link.
+
+    Raises
+    ------
+    InputError
+        It is one.
+    """
+    if path.is_symlink():
+        raise input_error(path, "is a link, which is not followed; choose another folder")
+
+
 def times(folder: Path) -> list[Accepted]:
     """List the accepted times of all generations.
 
@@ -85,7 +114,7 @@ def times(folder: Path) -> list[Accepted]:
     except FileNotFoundError:
         return []
     except (OSError, ValueError, TypeError) as error:
-        raise input_error(path, f"cannot be read ({error}); remove the folder and watch again") from None
+        raise input_error(path, f"cannot be read ({error}); choose another --out") from None
 
 
 def last_generation(accepted: list[Accepted]) -> list[Accepted]:
@@ -106,7 +135,7 @@ def append(folder: Path, before: list[Accepted], new: list[Accepted]) -> list[Ac
         raise input_error(folder / TIMES, reason)
     every = [*before, *new]
     text = ",\n".join(json.dumps(asdict(each)) for each in every)
-    files.write_text(folder / TIMES, f"[\n{text}\n]\n")
+    output.write_text(folder / TIMES, f"[\n{text}\n]\n", overwrite=True)
     return every
 
 

@@ -6,7 +6,7 @@ import uuid
 from functools import partial
 from pathlib import Path
 
-from .. import files
+from .. import output
 from ..errors import input_error
 from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
 from ..shot.source import ShotSource
@@ -59,8 +59,14 @@ def run(
     progress: Progress = silent,
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
+    overwrite: bool = False,
 ) -> int:
     """Write the asset library into the folder `out`: a shot's trees, materials and node groups.
+
+    Parameters
+    ----------
+    overwrite
+        Replace a changed catalogue.
 
     Returns
     -------
@@ -73,6 +79,8 @@ def run(
     """
     out = out.absolute()
     _refuse_strangers(out)
+    output.check_blend(out / BLEND)
+    output.check(out / CATALOGUE, overwrite)
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -80,7 +88,7 @@ def run(
     with notify_if_slow(READING):
         choice.shot()
     count = worker.run(partial(in_blender, choice, out / BLEND), progress, stop=stop, tell=tell)
-    files.write_text(out / CATALOGUE, catalogue())
+    output.write_text(out / CATALOGUE, catalogue(), overwrite)
     return count
 
 
@@ -103,5 +111,6 @@ def in_blender(choice: ShotSource, out: Path, progress: Progress, tell: MessageC
     shot = choice.shot()
     groups.build(shot.settings, owned.adopt(bpy.context.scene))
     count = assets.build(shot, identifier, progress)
-    save(out)
+    if kept := save(out):
+        tell(f"{out.name} had changed or was of others; it is kept as {kept.name}")
     return count

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import os
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .. import files
+from .. import files, output
 from ..errors import disk_is_full, full_disk_error, input_error, is_nearly_full
 from ..progress import READING, MessageCallback, Progress, count, no_message, notify_if_slow, silent
 from ..shot.cameras import camera_warnings
@@ -68,8 +67,7 @@ def run(
 
 def _writable(out: Path) -> None:
     """Check before the build that the file can be written."""
-    if out.is_dir():
-        raise input_error(out, "is a folder; name a file in it that ends in .blend")
+    output.check_blend(out)
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         part = files.temporary_path(out)
@@ -78,8 +76,6 @@ def _writable(out: Path) -> None:
     except OSError as error:
         reason = f"cannot be written ({error.strerror}); choose another folder"
         raise input_error(out, reason) from None
-    if out.exists() and not os.access(out, os.W_OK):
-        raise input_error(out, "is write-protected; choose another name")
 
 
 def in_blender(
@@ -108,7 +104,8 @@ def in_blender(
         _build_live(shot, stage.scene, progress, tell)
     viewport.prepare_file()
     volume_files.make_paths_relative(out)
-    save(out, relative_remap=False)
+    if kept := save(out, relative_remap=False):
+        tell(f"{out.name} had changed or was of others; it is kept as {kept.name}")
     filmed = bake.shot_frames(shot) if shot.settings.smoke.enabled else ()
     return len(volume_files.missing(stage, filmed))
 
@@ -124,8 +121,12 @@ def _build_live(shot: Shot, scene: bpy.types.Scene, progress: Progress, tell: Me
     tell(f"live scene: {cost.measure(scene, True).text()}")
 
 
-def save(out: Path, **how: bool) -> None:
+def save(out: Path, **how: bool) -> Path | None:
     """Save Blender's current file as `out`, atomically by way of a temporary name.
+
+    Returns
+    -------
+    The file that was there before, if it was kept (see `output.publish_blend`).
 
     Parameters
     ----------
@@ -143,7 +144,7 @@ def save(out: Path, **how: bool) -> None:
     bpy.context.preferences.filepaths.save_version = 0
     try:
         bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, **how)
-        files.publish(part, out)
+        return output.publish_blend(part, out)
     except RuntimeError as error:
         if disk_is_full(error) or is_nearly_full(out):
             raise full_disk_error(out) from None

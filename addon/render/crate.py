@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from .. import files
+from .. import output
 from ..errors import input_error
 from ..run.citations import PAPER
 from ..shot import passes
@@ -36,6 +36,7 @@ def write(
     description: str,
     rows: Sequence[Mapping[str, str]],
     licence: str = "",
+    overwrite: bool = False,
 ) -> Path:
     """Write the crate of an output folder, and return its path.
 
@@ -49,6 +50,8 @@ def write(
         Citations: ``kind`` and ``text``.
     licence
         URL of the licence of the film; "": none is stated.
+    overwrite
+        Replace a file of others (see `output`).
 
     Raises
     ------
@@ -85,7 +88,7 @@ def write(
     if licence not in {entity["@id"] for entity in graph}:
         graph += _licence(licence)
     text = json.dumps({"@context": f"{_PROFILE}/context", "@graph": graph}, indent=1) + "\n"
-    files.write_text(out / NAME, text)
+    output.write_text(out / NAME, text, overwrite)
     return out / NAME
 
 

@@ -16,7 +16,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator
 from numpy.typing import NDArray
 
-from .. import files
+from .. import output
 from ..data import history
 from ..geometry.polygons import area
 from . import areas, burned_fraction, thumbnails, times
@@ -41,7 +41,7 @@ NOTHING = Observations()
 DPI = 160
 
 
-def draw(run: Run, out: Path, zone: str, seen: Observations = NOTHING) -> list[Path]:
+def draw(run: Run, out: Path, zone: str, seen: Observations = NOTHING, overwrite: bool = False) -> list[Path]:
     """Write ``fuel.png`` and ``intensity.png``, with the observations of the fire, into the folder `out`.
 
     Returns
@@ -50,8 +50,10 @@ def draw(run: Run, out: Path, zone: str, seen: Observations = NOTHING) -> list[P
         Both files.
     """
     paths = [out / "fuel.png", out / "intensity.png"]
-    save(fuel_map(run), paths[0])
-    save(intensity_map(run, zone, seen), paths[1])
+    for path in paths:
+        output.check(path, overwrite)
+    save(fuel_map(run), paths[0], overwrite)
+    save(intensity_map(run, zone, seen), paths[1], overwrite)
     return paths
 
 
@@ -350,6 +352,7 @@ def _north_arrow(axes: Axes) -> None:
 _PLATE: dict[str, Any] = {"facecolor": "white", "alpha": 0.78, "edgecolor": "none"}
 
 
-def save(figure: Figure, path: Path) -> None:
-    """Write a figure as PNG, in place of a file."""
-    files.write(path, lambda part: figure.savefig(part, dpi=DPI, metadata={"Software": "Firetwin"}))
+def save(figure: Figure, path: Path, overwrite: bool = False) -> None:
+    """Write a figure as PNG, in place of an earlier one."""
+    metadata = {"Software": "Firetwin"}
+    output.write(path, lambda part: figure.savefig(part, dpi=DPI, metadata=metadata), overwrite)

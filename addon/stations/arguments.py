@@ -10,7 +10,7 @@ from datetime import date
 
 from .. import argument_types as types
 from .. import limits
-from ..command import add_verb
+from ..command import add_overwrite, add_verb
 from .import_options import MEANINGS
 from .records import DETOUR, MODES, STAFFING
 
@@ -53,7 +53,7 @@ def add_stations(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(
             "--out", metavar="STATIONS.gpkg", type=types.path, required=True, help="file to write"
         )
-        parser.add_argument("--overwrite", action="store_true", help="replace an existing file")
+        add_overwrite(parser)
 
     verb = add_verb(verbs, "import", "make a station file from other files")
     verb.add_argument("files", metavar="FILE", nargs="+", type=types.path, help="files in any known format")

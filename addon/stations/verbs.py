@@ -11,6 +11,7 @@ from pathlib import Path
 
 from firetwin_core.run import Run
 
+from .. import output
 from ..command import amend
 from ..data import history
 from ..errors import InputError, UsageError, input_error
@@ -58,7 +59,7 @@ def import_files(arguments: argparse.Namespace) -> None:
     _check_every_file_gave(arguments, batches)
     if any(source.licence == merging.NO_LICENCE for source in station_file.sources):
         say("a source has no licence; give --source and --licence before you publish the data")
-    writing.write(station_file, arguments.out)
+    writing.write(station_file, arguments.out, arguments.overwrite)
     result(arguments.out)
 
 
@@ -112,7 +113,7 @@ def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:
         )  # fmt: skip
     if not station_file.stations:
         raise input_error(arguments.towns or arguments.run, "lists no site for a base; list at least one")
-    writing.write(station_file, arguments.out)
+    writing.write(station_file, arguments.out, arguments.overwrite)
     bases, resources = (
         count(len(station_file.stations), "base"),
         count(len(station_file.resources), "resource"),
@@ -223,6 +224,4 @@ def _check_out(arguments: argparse.Namespace) -> None:
     out: Path = arguments.out
     if out.suffix.lower() != ".gpkg":
         raise UsageError(f"--out: {out} does not end in .gpkg; name a .gpkg file")
-    if out.exists() and not arguments.overwrite:
-        hint = "to add to it, name it among the files too; " if arguments.verb == "import" else ""
-        raise UsageError(f"--out: {out} exists already; {hint}choose another name, or add --overwrite")
+    output.check(out, arguments.overwrite)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import geopackage
+from .. import geopackage, output
 from ..errors import input_error
 from ..geopackage import insert
 from ..run import times
@@ -22,8 +22,13 @@ from .records import Resource, Source, Type
 from .station_file import StationFile
 
 
-def write(station_file: StationFile, path: Path) -> None:
-    """Write a station file; an existing file is replaced when the new one is complete.
+def write(station_file: StationFile, path: Path, overwrite: bool = False) -> None:
+    """Write a station file; an earlier one is replaced when the new one is complete.
+
+    Parameters
+    ----------
+    overwrite
+        Replace a file of others (see `output`).
 
     Raises
     ------
@@ -31,7 +36,8 @@ def write(station_file: StationFile, path: Path) -> None:
         The file cannot be written, or a row breaks a rule of the tables.
     """
     try:
-        geopackage.write(path, lambda base: _fill(base, station_file))
+        put = functools.partial(output.write, overwrite=overwrite)
+        geopackage.write(path, lambda base: _fill(base, station_file), put)
     except sqlite3.IntegrityError as error:
         raise input_error(path, f"cannot store these stations: {error}") from error
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import labelled
 import numpy as np
 import plain_samples
-from firetwin import leases
+from firetwin import leases, written
 from firetwin.dataset import files, plan_file, produce, sensor
 from firetwin.dataset.run_scene import RunScene
 from firetwin.dataset.truth import Truth
@@ -53,8 +53,9 @@ def log(out):
 
 
 def content(out):
-    """Return the bytes of all files of a data set by their path, without the folder of leases."""
+    """Return the bytes of all files of a data set by their path, without leases and the record of hashes."""
     found = sorted(path for path in out.rglob("*") if path.is_file() and produce.WORK not in path.parts)
+    found = [path for path in found if path.name != written.NAME]
     return {path.relative_to(out).as_posix(): path.read_bytes() for path in found}
 
 

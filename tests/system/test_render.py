@@ -236,7 +236,7 @@ def test_the_blend_file_is_complete_and_needs_no_add_on(firetwin, tmp_path):
     path = tmp_path / "scene.blend"
     listed, _ = firetwin("-o", path, verb="build")
     assert listed == f"{path}\n"
-    assert [left.name for left in tmp_path.iterdir()] == ["scene.blend"]
+    assert [left.name for left in tmp_path.glob("[!.]*")] == ["scene.blend"]
     bpy.ops.wm.open_mainfile(filepath=str(path))
     scene = bpy.context.scene
     rendered = {name for name, each in passes.known().items() if isinstance(each, passes.RenderedPass)}

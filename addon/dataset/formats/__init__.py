@@ -70,14 +70,16 @@ def writer(name: str) -> Writer:
     return plugins.module(__name__, name).write
 
 
-def write(set_folder: Path, samples: Sequence[Truth], formats: Iterable[str]) -> None:
+def write(
+    set_folder: Path, samples: Sequence[Truth], formats: Iterable[str], overwrite: bool = False
+) -> None:
     """Write the labels of the samples in each format; files of a format appear when it is complete.
 
     Raises
     ------
     InputError
-        The disk is full, or a file of a sample is missing or damaged.
+        The disk is full, a file of a sample is missing or damaged, or a file of others is in the way.
     """
     for name in formats:
-        with staging(set_folder) as out:
+        with staging(set_folder, overwrite) as out:
             writer(name)(set_folder, samples, out)

@@ -16,9 +16,10 @@ from ...shot.shot import Shot
 from ...shot.surface import orthophoto
 from ...shot.terrain import noise
 from ...shot.tiles import tile_terms
+from ...staging import staging
 from ...tiles import geoid, notices
 from ...tiles.make.lattice import Lattice, Surface
-from ...tiles.make.tileset import Maker, TilesetSummary
+from ...tiles.make.tileset import Maker, TilesetSummary, refuse_others
 
 Array = NDArray[np.float64]
 _FINEST = 4097  # points along an axis of an elevation model
@@ -45,6 +46,8 @@ class TilesRequest:
         Height of the geoid above the WGS84 ellipsoid, m; None: EGM96. It is added to orthometric heights.
     credit
         Credit of the data; empty: the run, and the credit of the scene's orthophoto.
+    overwrite
+        Replace files of others (see `output`).
     """
 
     out: Path
@@ -52,6 +55,7 @@ class TilesRequest:
     footprints: Path | None = None
     geoid: float | None = None
     credit: str = ""
+    overwrite: bool = False
 
 
 def run(
@@ -68,6 +72,7 @@ def run(
         The folder has other files, the footprints cannot be read, or the heights come from tiles whose
         terms forbid export.
     """
+    refuse_others(request.out)
     if shot.settings.terrain.height_source == "tiles":
         tile_terms.check(shot.settings, [("export", "`firetwin tiles make`")])
     surface = ground_surface(shot, request.geoid)
@@ -83,7 +88,8 @@ def run(
     photo = orthophoto.photographed(shot.settings)
     colours = _PhotoColours(shot) if photo else _FuelColours(shot)
     credit = request.credit or default_credit(shot, photo)
-    return Maker(lattice, colours, built, request.out, credit).run(progress)
+    with staging(request.out, request.overwrite) as folder:
+        return Maker(lattice, colours, built, folder, credit).run(progress)
 
 
 def default_credit(shot: Shot, photo: bool) -> str:

@@ -9,12 +9,19 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from ... import files
+from ... import output
 from ...errors import Error
 from .imager import ImagerPicture, Instrument, PowerBand
 
 
-def write(path: Path, picture: ImagerPicture, instrument: Instrument, run: str, moment: datetime) -> None:
+def write(
+    path: Path,
+    picture: ImagerPicture,
+    instrument: Instrument,
+    run: str,
+    moment: datetime,
+    overwrite: bool = False,
+) -> None:
     """Write four bands of 32-bit floats: brightness temperatures (K), fire radiative power (W) and the mask.
 
     Raises
@@ -56,7 +63,7 @@ def write(path: Path, picture: ImagerPicture, instrument: Instrument, run: str, 
                 power_from=_source(instrument.power, picture),
             )
 
-    files.write(path, fill)
+    output.write(path, fill, overwrite)
 
 
 def _source(band: PowerBand, picture: ImagerPicture) -> str:

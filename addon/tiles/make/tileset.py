@@ -60,14 +60,7 @@ class Maker:
         self.summary = TilesetSummary(errors=[0.0] * (lattice.levels + 1))
 
     def run(self, progress: Progress = silent) -> TilesetSummary:
-        """Write all tiles, and `tileset.json` last.
-
-        Raises
-        ------
-        InputError
-            The folder has other files.
-        """
-        self._check()
+        """Write all tiles, and `tileset.json` last."""
         total = (4 ** (self.lattice.levels + 1) - 1) // 3
         tiles: dict[tuple[int, int, int], dict[str, Any]] = {}
         for level in range(self.lattice.levels, -1, -1):
@@ -84,11 +77,6 @@ class Maker:
         }
         files.write_text(self.out / _FILE, json.dumps(whole, separators=(",", ":")) + "\n")
         return self.summary
-
-    def _check(self) -> None:
-        path = self.out / _FILE
-        if self.out.is_dir() and any(self.out.iterdir()) and not _is_own_tileset(path):
-            raise input_error(self.out, "is neither empty nor a tileset of Firetwin; name another --out")
 
     def _tile(
         self, level: int, row: int, column: int, tiles: dict[tuple[int, int, int], Any]
@@ -195,6 +183,18 @@ def _diagonal(lattice: Lattice) -> float:
     scale = ellipsoid.metres_per_degree(float(lattice.latitude.mean()))
     sides = [axis[-1] - axis[0] for axis in (lattice.latitude, lattice.longitude)]
     return float(np.hypot(*(side * metres for side, metres in zip(sides, scale, strict=True))))
+
+
+def refuse_others(out: Path) -> None:
+    """Refuse a folder that is neither empty nor a tileset of Firetwin.
+
+    Raises
+    ------
+    InputError
+        It is one.
+    """
+    if out.is_dir() and any(out.iterdir()) and not _is_own_tileset(out / _FILE):
+        raise input_error(out, "is neither empty nor a tileset of Firetwin; name another --out")
 
 
 def _is_own_tileset(path: Path) -> bool:

@@ -214,7 +214,7 @@ def test_new_writes_a_scene_file_says_what_it_chose_and_overwrites_nothing(make_
     assert scene_file.read(out).run.resolve() == folder.resolve()
     out.write_text("mine")
     again = firetwin("new", folder, "-o", out)
-    assert_one_line(again, 2, "scene.toml exists already", "--overwrite")
+    assert_one_line(again, 1, "scene.toml: has changed since Firetwin wrote it", "--overwrite")
     assert out.read_text() == "mine"
 
 

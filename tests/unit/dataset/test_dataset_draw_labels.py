@@ -112,7 +112,7 @@ def test_a_sample_of_a_data_set_is_drawn_from_its_files(folder):
 
 def test_the_command_draws_the_samples_of_a_list(folder, tmp_path, capsys):
     assert cli.main(["dataset", "draw", str(folder), "--out", str(tmp_path / "seen"), "--only", "4,30"]) == 0
-    assert sorted(path.name for path in (tmp_path / "seen").iterdir()) == ["000004.png", "000030.png"]
+    assert sorted(path.name for path in (tmp_path / "seen").glob("[!.]*")) == ["000004.png", "000030.png"]
     assert capsys.readouterr().out.split()[0].endswith("000004.png")
 
 

@@ -188,3 +188,22 @@ def test_a_failed_format_leaves_the_old_files(made, tmp_path):
         formats.write(tmp_path, samples, ["coco"])
     assert (tmp_path / "annotations/instances_train.json").read_bytes() == before
     assert not list(tmp_path.parent.glob(".*.part"))
+
+
+def test_folders_and_files_of_others_stay(tmp_path):
+    samples = labelled.data_set(tmp_path, 3)
+    (tmp_path / "annotations").mkdir()
+    for name in ("annotations/mine.json", "data.yaml"):
+        (tmp_path / name).write_text("mine")
+    with pytest.raises(InputError, match=r"data\.yaml: exists already, and Firetwin did not write it"):
+        formats.write(tmp_path, samples, ["coco", "yolo"])
+    formats.write(tmp_path, samples, ["coco"])
+    for name in ("annotations/mine.json", "data.yaml"):
+        assert (tmp_path / name).read_text() == "mine"
+
+
+def test_labels_of_samples_that_are_gone_do_not_stay(tmp_path):
+    samples = labelled.data_set(tmp_path, 3)
+    formats.write(tmp_path, samples, ["yolo"])
+    formats.write(tmp_path, samples[:2], ["yolo"])
+    assert sorted(path.name for path in (tmp_path / "labels").iterdir()) == ["000001.txt", "000002.txt"]

@@ -33,8 +33,9 @@ truths = st.builds(
     **{name: st.none() for name in ("seconds_since_ignition", "front_geojson")},
     **{
         name: st.dictionaries(st.text(max_size=3), st.text(max_size=3), max_size=2)
-        for name in ("groups", "draw", "source", "labelling", "sensor", "thermal", "files")
+        for name in ("groups", "draw", "source", "labelling", "sensor", "thermal")
     },
+    files=st.just({"images": "images/000001.jpg"}),
 )
 
 
@@ -51,6 +52,13 @@ def test_a_truth_comes_back_as_it_was(tmp_path_factory, written):
 
 def plain(**more):
     return Truth(7, CAMERA, "2014-09-17T18:06:00+00:00", 60.0, **more)
+
+
+@pytest.mark.parametrize("hostile", [{"split": "../x"}, {"split": "/x"}, {"files": {"images": "a/../../x"}}])
+def test_names_that_lead_out_of_the_folder_are_refused(tmp_path, hostile):
+    truth.write(tmp_path, replace(plain(), **hostile))
+    with pytest.raises(InputError, match="is damaged"):
+        truth.read(tmp_path, 7)
 
 
 def test_numbers_that_json_has_not_are_rejected(tmp_path):

@@ -103,6 +103,60 @@ def test_a_file_that_changed_is_not_delivered(finished, tmp_path):
 
 
 @pytest.mark.parametrize(
+    "hostile",
+    [
+        {"camera": "../../../OUTSIDE/x"},
+        {"camera": "/tmp/x"},
+        {"camera": ".."},
+        {"camera": 7},
+        {"pass": "a/../../x"},
+        {"film": "../x"},
+        {"frame": "1/../../x"},
+    ],
+)
+def test_values_of_a_manifest_never_lead_out_of_the_version(finished, tmp_path, hostile):
+    path = finished / "manifest.json"
+    content = json.loads(path.read_text())
+    for entry in content["files"].values():
+        entry |= hostile
+    path.write_text(json.dumps(content))
+    out, before = tmp_path / "a" / "b" / "delivered", sorted(tmp_path.rglob("*"))
+    with pytest.raises(InputError, match=r"manifest.json: names .* no parts of a file name"):
+        version.write(out, names.choose(finished, PATTERN, 1001))
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_two_deliveries_at_once_get_two_numbers(finished, tmp_path):
+    chosen, out, second = names.choose(finished, PATTERN, 1001), tmp_path / "delivered", []
+    (out / ".v007.0123456789ab.part").mkdir(parents=True)  # of a killed process
+
+    def meanwhile(done, *_):
+        if done == 3 and not second:
+            second.append(None)
+            second[0] = version.write(out, chosen)
+
+    first = version.write(out, chosen, None, meanwhile)
+    assert (first.name, second[0].name) == ("v001", "v002")
+    assert os.readlink(out / "latest") == "v002"
+    assert sorted(path.name for path in out.iterdir()) == ["latest", "v001", "v002"]
+    for each in (first, second[0]):
+        assert len(list(each.rglob("*.exr"))) == 9
+
+
+def test_a_link_latest_of_others_stays(finished, tmp_path):
+    out, mine = tmp_path / "delivered", tmp_path / "mine"
+    out.mkdir()
+    mine.mkdir()
+    (out / "latest").symlink_to(mine)
+    chosen = names.choose(finished, PATTERN, 1001)
+    with pytest.raises(InputError, match="latest: is a link that firetwin deliver did not write"):
+        version.write(out, chosen)
+    assert [path.name for path in out.iterdir()] == ["latest"]
+    version.write(out, chosen, overwrite=True)
+    assert os.readlink(out / "latest") == "v001"
+
+
+@pytest.mark.parametrize(
     ("pattern", "words"),
     [
         ("{shot}.{frame}.{ext}", r"\{shot\} is not one of \{camera\}"),

@@ -8,7 +8,7 @@ import growing_model
 import numpy as np
 import pytest
 from firetwin.errors import InputError
-from firetwin.growing import acceptance, model_log, states, watch, watched
+from firetwin.growing import acceptance, model_log, revision, states, watch, watched
 from firetwin.run import readers
 
 pytest.importorskip("netCDF4")
@@ -126,7 +126,7 @@ def test_a_watch_continues_after_it_was_killed(in_process, tmp_path):
     run.poll(2)
     left = watched.revision_folder(run.out, 1, 3)  # a revision that was published, but not listed
     left.mkdir()
-    (left.parent / ".000004.abc.part").mkdir()
+    (left.parent / ".000004.0123456789ab.part").mkdir()
     run.model.append()
     run.model.close()
     run.watch = watch.Watch(run.watch.request, run.said.append)
@@ -271,3 +271,45 @@ def test_pages_warn_that_the_model_had_not_ended(tmp_path):
     (tmp_path / watched.STATUS).write_text('{"state": "ended"}')
     assert readers.folder.warnings(run, "UTC") == []
     assert readers.folder.warnings(tmp_path / "other", "UTC") == []
+
+
+def test_a_folder_behind_a_link_is_never_touched(in_process, tmp_path):
+    mine, run = tmp_path / "mine", Watched(tmp_path, "netcdf3")
+    for number in range(1, 5):
+        (mine / f"{number:06d}").mkdir(parents=True)
+        (mine / f"{number:06d}" / "mine.npy").write_text("mine")
+    before = sorted(mine.rglob("*"))
+    run.out.mkdir()
+    (run.out / "generation_1").symlink_to(mine)
+    with pytest.raises(InputError, match="generation_1: is a link"):
+        watch.Watch(run.watch.request, run.said.append)
+    for _ in range(5):  # the link was made after the check
+        run.model.append()
+    run.poll(3)
+    assert any("generation_1: is a link" in line for line in run.said)
+    revision.remove_old(run.out, 1)
+    revision.remove_parts(run.out)
+    assert sorted(mine.rglob("*")) == before
+
+
+@pytest.mark.parametrize("name", [watched.STATUS, watched.TIMES, watched.PAGE, "notes.txt"])
+def test_a_folder_of_others_is_no_watched_folder(tmp_path, name):
+    (tmp_path / "DIR").mkdir()
+    (tmp_path / "DIR" / name).write_text('{"state": "mine"}')
+    with pytest.raises(InputError, match="did not write"):
+        Watched(tmp_path, "netcdf3")
+    assert (tmp_path / "DIR" / name).read_text() == '{"state": "mine"}'
+
+
+def test_files_of_others_in_a_revision_stay(in_process, tmp_path):
+    run = Watched(tmp_path, "netcdf3")
+    for _ in range(2):
+        run.model.append()
+    run.poll(2)
+    kept = watched.revision_folder(run.out, 1, 2) / "notes.txt"
+    kept.write_text("mine")
+    for _ in range(6):
+        run.model.append()
+        run.poll(2)
+    assert kept.read_text() == "mine"
+    assert [path.name for path in kept.parent.iterdir()] == ["notes.txt"]

@@ -83,8 +83,8 @@ def test_a_fire_that_is_not_known_has_no_reports(make_run):
 def test_maps_are_drawn(run, tmp_path):
     out = tmp_path / "new" / "maps"
     assert maps.draw(run, out, ZONE) == [out / "fuel.png", out / "intensity.png"]
-    assert sorted(path.name for path in out.iterdir()) == ["fuel.png", "intensity.png"]
-    for path in out.iterdir():
+    assert sorted(path.name for path in out.glob("[!.]*")) == ["fuel.png", "intensity.png"]
+    for path in out.glob("*.png"):
         pixels = np.asarray(Image.open(path).convert("RGB")).astype(int)
         assert pixels.shape[1] == round(8.8 * maps.DPI)
         assert pixels.std() > 20

@@ -209,10 +209,13 @@ def test_a_head_needs_a_time(exercise, run, capsys):
 
 
 def test_a_file_that_is_there_is_kept(exercise, run, capsys):
+    assert firetwin(capsys, "stations", "exercise", run, "--out", exercise)[0] == 0  # own and unchanged
+    with exercise.open("ab") as file:
+        file.write(b"mine")
     before = exercise.read_bytes()
     status, _, said = firetwin(capsys, "stations", "exercise", run, "--out", exercise)
-    assert status == 2
-    assert "exists already" in said
+    assert status == 1
+    assert "has changed since Firetwin wrote it" in said
     assert exercise.read_bytes() == before
     assert (
         firetwin(capsys, "stations", "exercise", run, "--out", exercise, "--overwrite", "--seed", 1)[0] == 0

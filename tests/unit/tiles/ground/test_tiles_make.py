@@ -203,7 +203,7 @@ def test_a_building_is_a_closed_block_with_its_hole():
 def test_a_folder_with_something_else_is_refused(tmp_path):
     (tmp_path / "mine.txt").write_text("mine")
     with pytest.raises(InputError, match="nor a tileset of Firetwin"):
-        tileset.Maker(lattice.Lattice(surface(9, 9)), None, [], tmp_path).run()
+        tileset.refuse_others(tmp_path)
     assert [each.name for each in tmp_path.iterdir()] == ["mine.txt"]
 
 
