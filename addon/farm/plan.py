@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from .. import files
+from .. import files, output
 from ..errors import UsageError, input_error
 from ..render import fingerprint
 from ..render import plan as pictures
@@ -239,6 +239,9 @@ def write(job: Job, out: Path) -> None:
         The folder has a different job, or cannot be written.
     """
     path = job_dir(out) / FILE
+    output.refuse_run_folders(path)
+    if path.parent.is_symlink() or (not path.exists() and any(path.parent.glob("[!.]*"))):
+        raise input_error(path.parent, "belongs to no job of Firetwin; choose another output folder")
     if path.exists() and read(out) != job:
         raise input_error(
             path, "describes a different job, or the scene file has changed; choose another output folder"

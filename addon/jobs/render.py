@@ -89,9 +89,14 @@ def run(
     ----------
     shot
         Shot of `choice`, if already resolved.
+
+    Raises
+    ------
+    InputError
+        The output folder has files of others in its camera folders.
     """
     from ..render import dataset, fingerprint, plan
-    from ..render.store import Store
+    from ..render.store import Store, refuse_others
 
     out = asked.out
     _refuse_run(out)
@@ -100,6 +105,7 @@ def run(
         wanted = plan.pictures(shot, *asked.selection())
     prepare_tiles(choice, wanted, asked, progress, tell, stop)  # fingerprints include the selection
     made_with = fingerprint.compute(shot, wanted, progress)
+    refuse_others(out, dict.fromkeys(picture.camera for picture in wanted))
     with Store(out) as store:
         begun = store.latest_number()
         undone, filming = _compare(store, shot, wanted, made_with, asked, tell)

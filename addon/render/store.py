@@ -12,12 +12,15 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from .. import leases
+from .. import leases, output
 from ..database import Database
+from ..errors import input_error
 from ..run.content import fingerprint, sha256, stamp
+from ..shot import passes
 from . import manifest
 
 NAME = "store.sqlite"
+_JOB = "farm/job.json"  # whose tasks write pictures before there is a store
 _TABLES = f"""
 CREATE TABLE files (number INTEGER PRIMARY KEY AUTOINCREMENT, path TEXT UNIQUE, settings TEXT, camera TEXT,
                     pass TEXT, frame INTEGER, stamp TEXT, entry TEXT);
@@ -165,6 +168,24 @@ class Store:
             return json.loads(now)[0] == made["bytes"] and sha256(self.out / path) == made["sha256"]
         except (OSError, KeyError):
             return False
+
+
+def refuse_others(out: Path, views: Iterable[str]) -> None:
+    """Refuse an output folder whose camera folders are of others, or that has links in their places.
+
+    Raises
+    ------
+    InputError
+        It is one, or is in the folder of a run.
+    """
+    output.refuse_run_folders(out / NAME)
+    is_ours = any((out / each).is_file() for each in (NAME, manifest.NAME, _JOB))
+    for folder in (out / passes.file_stem(view) for view in views):
+        links = [each for each in (folder, *folder.glob("*")) if each.is_symlink()]
+        if links:
+            raise input_error(links[0], "is a link, which is not followed; choose another folder for --out")
+        if folder.exists() and not is_ours:
+            raise input_error(folder, "belongs to no film of Firetwin; choose another folder for --out")
 
 
 def describe(path: Path) -> dict[str, Any]:

@@ -27,9 +27,11 @@ import pytest
 from firetwin import cli, leases, output
 from firetwin.dataset import produce
 from firetwin.errors import writing
+from firetwin.farm import plan
 from firetwin.render import store
 from firetwin.render.store import Store
 from firetwin.run import content, readers
+from firetwin.run.models import write
 from small_run import RUN_TOML, small_fields, write_field
 
 MINE = b"mine, of years\n"
@@ -85,12 +87,12 @@ NO_DOORS = {
 }
 """Commands that write no files of their own for the user, and what they write."""
 
-FOLDERS = {
-    "convert": "write.check",
-    "farm plan": "plan.write",
-    "render": "render._refuse_others",
+FOLDERS: dict[str, tuple[str, Callable[[Path], object]]] = {
+    "convert": ("out", lambda folder: write.check(folder / "out")),
+    "farm plan": ("out/farm", lambda folder: plan.write(None, folder / "out")),
+    "render": ("out/drone", lambda folder: store.refuse_others(folder / "out", ["drone"])),
 }
-"""Commands that write only into folders that are theirs or new, and their checks."""
+"""Commands that write only into folders that are theirs or new: the folder, and its check."""
 
 
 def verbs() -> dict[str, argparse.ArgumentParser]:

@@ -17,7 +17,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ... import files
+from ... import files, output
 from ...errors import Error, InputError, input_error, reading, writing
 from ...progress import Progress, size
 from .. import opening
@@ -49,6 +49,9 @@ def check(out: Path) -> None:
     InputError
         The place is taken.
     """
+    output.refuse_run_folders(out)
+    if part_of(out).is_symlink():
+        raise input_error(part_of(out), "is a link, which is not followed; remove it")
     if out.exists() and not (out.is_dir() and not any(out.iterdir())):
         raise input_error(out, "already exists; remove it or choose another path")
 

@@ -50,6 +50,23 @@ def test_every_door_has_the_remedy():
     assert without == ["build"]  # which keeps the file
 
 
+@pytest.mark.parametrize("name", doors.FOLDERS)
+def test_a_folder_of_others_is_refused(name, tmp_path):
+    path, check = doors.FOLDERS[name]
+    (tmp_path / path).mkdir(parents=True)
+    (tmp_path / path / "mine.txt").write_text("mine")
+    with pytest.raises(InputError, match="choose another"):
+        check(tmp_path)
+    (tmp_path / path).rename(tmp_path / "mine")
+    if name != "convert":  # which writes no folder that exists
+        (tmp_path / path).symlink_to(tmp_path / "mine")
+        with pytest.raises(InputError, match="choose another"):
+            check(tmp_path)
+    (tmp_path / "run.toml").touch()
+    with pytest.raises(InputError, match="is in the folder of a run"):
+        check(tmp_path)
+
+
 @pytest.mark.parametrize(("name", "path"), CASES)
 def test_no_file_is_lost(name, path, tmp_path):
     for number, state in enumerate(doors.states(name, path)):
