@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from firetwin.blender import nodes
 from firetwin.scene.band_limited_noise import Grain
-from firetwin.scene.terrain import burn_scar
+from firetwin.scene.terrain import burn_scar, burning_wood
 
 FRESH, OLD = 120.0, 20_000.0  # s
 
@@ -62,3 +62,32 @@ def test_burned_grass_is_thin_char(colour):
     grass = colour(500.0, FRESH, load=0.3, woody=0.0, canopy=0.0)
     assert 0.02 < grass.mean() < 0.06
     assert grass[0] / grass[2] < 1.4
+
+
+@pytest.fixture
+def wood(scene, plate, shoot):
+    """wood(age, pixel, canopy): mean glow of burning wood on a square of 100 m."""
+
+    def make(age, pixel=0.02, canopy=1.5):
+        material, tree = nodes.material("wood")
+        position = tree.output("ShaderNodeTexCoord", name="Generated")
+        position = tree.vector("SCALE", position, tree.math("ADD", 100.0, 0.0))
+        constants = {"age": age, "pixel": pixel, "canopy": canopy, "woody": 1.0, "duff": 1.0}
+        inputs = {name: tree.math("ADD", float(value), 0.0) for name, value in constants.items()}
+        tree.surface(tree.emission(burning_wood.glow(tree, SimpleNamespace(position=position, **inputs))))
+        plate.materials.clear()
+        plate.materials.append(material)
+        scene.render.resolution_x = scene.render.resolution_y = 64
+        return float(shoot(scene).mean())
+
+    return make
+
+
+def test_wood_burns_on_in_forest_alone_and_fades(wood):
+    fresh = wood(FRESH)
+    assert 0.05 * fresh < wood(3600.0) < 0.7 * fresh
+    assert wood(FRESH, canopy=0.0) == 0.0
+
+
+def test_pieces_smaller_than_pixels_are_as_bright_together(wood):
+    assert wood(FRESH, pixel=1.0) == pytest.approx(wood(FRESH, pixel=0.15), rel=0.5)

@@ -36,6 +36,9 @@ BARE_AFTER = 60.0, 180.0  # s from the fire to a bare plant within the field of 
 _STRESSED = 0.07  # fraction of trees whose tops are yellow and brown from drought or insects; by eye
 _YELLOWED = (0.110, 0.098, 0.036)
 _HUES = (0.64, 0.80, 0.98), (1.46, 1.24, 0.88)  # factors on the bluest and yellowest stands; by eye
+_COAL, _COAL_LIGHT = (1.0, 0.20, 0.016), 0.22  # colour, and radiance at exposure 0 (by eye)
+_COALS, _COALS_LAST = 0.4, (200.0, 3600.0)  # fraction of burned trunks and logs; s, decay to 1/e (assumed)
+_COALS_UP, _COALS_SEEN = 0.08, (100.0, 250.0)  # tree heights; m from the camera
 _SINGED = 0.7  # browning of the green tops of partly scorched trees by hot air and soot; by eye
 _BROWN = ((0.060, 0.041, 0.026), (0.118, 0.080, 0.046))  # needles killed by drought, beetles or heat
 _REFLECTED = (0.04, 0.045, 0.025)  # colour of plants that light other surfaces, a mean (assumed)
@@ -101,10 +104,39 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
         burned = age.smoothstep(*_CHARRED) * tree.math("MAXIMUM", low, whole)
         colour = tree.mix_colour(burned, brown, black)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
+    burning, glow = _smouldering(tree, shot, tint, age)
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
     warmth = _warmth(tree, shot, stage, normal, age, age > 0.0)
-    _finish(tree, shot, stage, matt, warmth)
+    _finish(tree, shot, stage, tree.add_shader(matt, burning), warmth, glow=glow)
     return material
+
+
+def _smouldering(
+    tree: nodes.Tree, shot: Shot, tint: nodes.Value, age: nodes.Value
+) -> tuple[nodes.Value, nodes.Value]:
+    """Return shader and radiance of coals at the foot of some burned trunks, and on some logs.
+
+    They are near the camera; elsewhere the shader is not evaluated.
+    """
+    chance, lasts = (tree.math("FRACT", tint * factor) for factor in (71.0, 713.0))
+    since = tree.math("MAXIMUM", age, 0.0)
+    fading = (since / tree.math("POWER", _COALS_LAST[1] / _COALS_LAST[0], lasts) / -_COALS_LAST[0]).exp()
+    tall = tree.separate(tree.attribute("number", "INSTANCER", "Vector"))[0] > 0.0
+    low = tree.separate(_place(tree))[2].smoothstep(tree.mix(tall, 1.2, _COALS_UP), 0.0)
+    near = tree.output("ShaderNodeCameraData", name="View Distance").ramp(*_COALS_SEEN, 1.0, 0.0)
+    alight = low * fading * near * (age > 0.0) * (chance < _COALS)
+    alight = alight * (alight > 0.03)
+    position = tree.output("ShaderNodeNewGeometry", name="Position")
+    cracks = tree.noise(tree.vector("MULTIPLY", position, (1.0, 1.0, 0.4)), 0.25, 3.0).smoothstep(0.52, 0.66)
+    bright = tree.input(
+        "Coal Brightness",
+        _COAL_LIGHT if shot.settings.fire.embers else 0.0,
+        "Radiance of coals on burned wood, at exposure 0",
+        "Fire",
+    )
+    shader = tree.output("ShaderNodeMixShader", {0: alight, 2: tree.emission(_COAL, cracks * bright)})
+    power = alight * cracks * bright
+    return shader, tree.vector("MULTIPLY", _COAL, tree.combine(power, power, power))
 
 
 def rock(shot: Shot, stage: Stage) -> bpy.types.Material:

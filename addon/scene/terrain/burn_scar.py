@@ -9,6 +9,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import flame_field
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME
+from . import burning_wood
 from .shading_inputs import GroundInputs
 
 EMBER_TIME = 3600.0  # s, decay time of embers of timber, to 1/e
@@ -41,7 +42,11 @@ _DIMMED = 0.3  # factor on the emission of the flaming front close by
 _BENEATH = 0.06  # factor on it below flames that are drawn as a field (by eye)
 _COALS = 0.04, 0.5  # m, pixel sizes between which coals of a few cm blend into patches
 _COAL_LIGHT = 0.12, 0.05  # factors on the emission of coals and of patches below the field of flames (by eye)
-_COAL = (1.0, 0.055, 0.004)  # colour of embers there
+_COAL = (1.0, 0.17, 0.012)  # colour of embers there: with less green, AgX shows bright ones as pink
+_FRESH = 240.0, 2.0, 0.35
+"""s, decay time of the light of fresh coals of timber, to 1/e, before ash covers them (assumed); factors on
+the light of coals when fresh and later (by eye)."""
+_WOOD_LIGHT = 2.5  # radiance of burning stumps and logs at exposure 0 (by eye)
 _GLOWING = 0.05
 """Area fraction of glowing coals in a patch of embers (assumed): at 850 K they radiate 1.5 kW/m2."""
 _SPARSE = 0.25  # coverage of coals between patches, relative to within them (by eye)
@@ -180,10 +185,20 @@ def fire_emission(
     )
     beyond = flame_field.share(tree, stage)
     ember = tree.mix_colour(beyond, _COAL, ember)
-    glowing = glowing * tree.mix(beyond, place.pixel.ramp(*_COALS, *_COAL_LIGHT), 1.0)
-    colour = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), ember, flame)
-    bright = bright * place.woody.ramp(0.0, 1.0, _PALE, 1.0)
-    power = flaming * bright * place.distance.ramp(*CLOSE, _DIMMED, 1.0) + embers * glowing
+    fresh = (tree.math("MAXIMUM", place.age, 0.0) * (-_TIMBER / _FRESH[0]) / place.residence).exp()
+    coals = place.pixel.ramp(*_COALS, *_COAL_LIGHT) * fresh.ramp(0.0, 1.0, _FRESH[2], _FRESH[1])
+    embers = embers * glowing * tree.mix(beyond, coals, 1.0)
+    wood = burning_wood.glow(tree, place) * tree.input(
+        "Wood Brightness",
+        _WOOD_LIGHT if shot.settings.fire.embers else 0.0,
+        "Radiance of stumps and logs that burn on, at exposure 0",
+        "Fire",
+    )
+    flames = flaming * bright * place.woody.ramp(0.0, 1.0, _PALE, 1.0)
+    flames = flames * place.distance.ramp(*CLOSE, _DIMMED, 1.0)
+    power = flames + embers + wood
+    some = power + 1.0e-4
+    colour = tree.mix_colour(flames / some, tree.mix_colour(wood / some, ember, burning_wood.COLOUR), flame)
     shining = {0: fuel, 2: tree.emission(colour, power)}  # nodes are not evaluated without fuel
     shown = power * fuel
     glow = tree.vector("MULTIPLY", colour, tree.combine(shown, shown, shown))
