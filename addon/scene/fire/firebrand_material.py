@@ -11,7 +11,7 @@ from ...shot.shot import Shot
 from .. import glow, haze, infrared
 
 _COOL, _HOT = (1.0, 0.10, 0.008), (1.0, 0.42, 0.10)
-_LIGHT = 6.0  # radiance relative to flames; chosen by eye, as in a long exposure
+_LIGHT = 10.0  # radiance relative to flames; chosen by eye, as in a long exposure
 COLD, FRESH = 900.0, 1300.0  # K
 
 

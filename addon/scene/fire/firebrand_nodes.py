@@ -11,7 +11,6 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from . import firebrand_material, firebrands, flames
 
-_SHUTTER = 0.04  # s, exposure time of a streak, as of a film camera (24 frames a second)
 _PIXELS = 0.8  # minimum width of a streak in pixels; narrower streaks are dimmed instead
 _FAR = 2.0 * firebrands.REACH
 """m from the camera beyond which no streak is drawn: a firebrand there adds less than 0.1 K to a pixel. In a
@@ -80,7 +79,7 @@ def _node_group(shot: Shot, stage: Stage, flights: firebrands.Flights, pixel: fl
     for out in (part < 0.0, part > 1.0, after < 0.0, after > each - 1.0):
         dead = tree.math("MAXIMUM", dead, out)
     larger = tree.input("Size", 1.0, "Factor on the size of the pieces", "Size")
-    shutter = tree.input("Shutter", _SHUTTER, "Exposure time (s) of a streak", "Size")
+    shutter = tree.input("Shutter", firebrands.exposure_time(shot), "Exposure time (s) of a streak", "Size")
     size = named("size") * larger
     width = tree.math("MAXIMUM", size, distance * (_PIXELS * pixel))
     length = width + tree.vector("LENGTH", way, name="Value") * (shutter / flights.step)

@@ -22,6 +22,11 @@ from . import flames
 
 REACH = 1800.0  # m from a camera; firebrands farther away are too faint for a picture
 PER_MEGAJOULE = 0.01  # large pieces per MJ of heat released; chosen by eye
+SHUTTER, _LONGEST = 1.0 / 48.0, 1.0 / 12.0
+"""s, exposure time of a streak without motion blur, as of a film camera, and the longest."""
+_NEAR, _MORE = 400.0, 25.0
+"""m from a camera within which pieces are more numerous, in inverse proportion to the distance, and the most
+by which: smaller ones are visible there (by eye)."""
 _LIFE = (2.0, 16.0)  # s, life of a glowing piece
 _MEAN_LIFE = 7.0  # s
 _SIZE, _SIZES, _SIZE_RANGE = 0.012, 0.7, (0.003, 0.06)  # m, deviation of the logarithm, m (bark and twigs)
@@ -91,6 +96,12 @@ def updraft(intensity: Array) -> Array:
     return np.cbrt(constants.GRAVITY * np.asarray(intensity, np.float64) * 1000.0 / _AIR)
 
 
+def exposure_time(shot: Shot) -> float:
+    """Return the exposure time (s) of streaks: that of motion blur, if the shot has it."""
+    blurred = shot.settings.render.motion_blur * shot.frames.step
+    return min(blurred or SHUTTER, _LONGEST)
+
+
 def fly(shot: Shot, points: flames.Points) -> Flights | None:
     """Launch, integrate and thin out the firebrands of flames near the cameras; None without firebrands.
 
@@ -101,7 +112,8 @@ def fly(shot: Shot, points: flames.Points) -> Flights | None:
         return None
     distance = shot.visibility.distance(points.position)
     fade = np.clip((REACH - distance) / (0.3 * REACH), 0.0, 1.0)
-    rate = PER_MEGAJOULE * points.intensity * points.width / 1000.0 * fade
+    more = np.clip(_NEAR / np.maximum(distance, 1.0), 1.0, _MORE)
+    rate = PER_MEGAJOULE * points.intensity * points.width / 1000.0 * fade * more
     times, zero = shot.built_times, shot.frames.first
     most = max(float(rate[points.lit(float(t))].sum()) for t in times) * _MEAN_LIFE
     rate *= min(1.3 * most_shown / max(most, 1.0), 1.0)
