@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...geometry.grids import dilate
 from ..terrain import noise
 from ..terrain.terrain import UNKNOWN
-from . import flame_noise, flame_patches, flame_size
+from . import flame_noise, flame_patches, flame_phase, flame_size, flame_state
 from .flame_depth import FrontFields
 from .flame_view import FADE, ViewCone
 
@@ -28,26 +28,10 @@ _FINEST, _COARSEST = 0.25, 128.0  # m, spacing of the finest and the coarsest sq
 _CELLS, _TILE = 256, 8  # cells along a square, and cells along a tile of the march
 _PART, _PARTS = 4.0, 4  # m, distance between the places at which lengths are averaged; most along a cell
 _GROUND = 4.0  # m, distance at which the ground is computed, or more; its finest waves are 26 m long
-_RAGGED = ((14.0, 3.5), (4.5, 1.2))  # m, sizes and shifts of the ragged edge of a crown fire's front (by eye)
 _WIDEST = 8.0  # m, more than these shifts add up to
 _OLDEST = 1200.0  # s, age at which everything is out
 _MARGIN = 60.0  # m that flames may lean or rise into a picture
 
-_TALL_PART = 1.0 / 3.0  # fraction of the residence time at full height
-_DEEP = 0.35  # least depth of the tall part over the flame length: thinner sheets are not seen (assumed)
-_LONGEST = 900.0  # s
-_RISING = 0.12  # fraction of the tall phase in which flames grow (by eye)
-_LOW = 0.22  # height behind the tall phase (by eye)
-_RESIDUAL = (0.12, 1.5)  # height of residual flames: fraction of the length, and at most, m (by eye)
-_WOOD = (20.0, 60.0)  # s, residence times from which fuel leaves residual flames; grass burns out (assumed)
-_PATCH = 9.0  # m, size of patches of fuel that burn on behind the front
-_UNEVEN = ((26.0, 0.8, 0.7), (9.0, 0.6, 0.2))
-"""Sizes of the noise of the lengths' logarithm, m, and its strengths in low flames and in a crown fire, where
-narrow patches would be spears (by eye)."""
-_BETWEEN = 0.25  # length between clumps over the length in them (by eye)
-_TALLEST = 1.35  # length of the longest flames over the mean length (by eye)
-_LENGTHS = (0.15, 75.0)  # m
-_LEAST_FUEL = 0.05  # kg/m2
 _MIDFLAME = 0.4  # wind at the flames over the wind above (P. L. Andrews 2012, RMRS-GTR-266, open fuel)
 
 Array = NDArray[np.float64]
@@ -186,50 +170,15 @@ def lengths(shot: Any, place: Array, row: Array, column: Array, time: float) -> 
     Age decides: flames grow, are tall for a third of the residence time of their fuel, decline, and leave
     low residual flames in patches. Their length follows from the fireline intensity, as for `flames.Points`.
     """
-    ground, front, full = shot.ground, shot.full.front, shot.full
-    seed, scale = full.settings.seed, max(full.front_scale, 0.3)
-    east, north = place.T
-    for index, (size, shift) in enumerate(_RAGGED):
-        for axis, (values, cell) in enumerate(zip((row, column), ground.cell, strict=True)):
-            wave = noise.fractal(east, north, size * scale, 1, seed + 540 + 4 * index + axis)
-            values += wave * shift * scale / cell
+    ground, front = shot.ground, shot.full.front
+    row, column = flame_state.shift(shot, place, row, column)
     speed, residence = ground.spread(row, column), bilinear(front.residence, row, column)
-    canopy = bilinear(ground.fields.canopy_fuel, row, column)
-    fuel = canopy + bilinear(ground.fields.surface_fuel, row, column)
-    intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * fuel * speed
-    formula = full.settings.fire.flame_length
-    even = flame_size.flame_length(intensity, formula, canopy > flame_size.CROWNS)
-    factor = flame_noise.flare_factor(east, north, even, scale, seed)
-    crowded = noise.smoothstep(*flame_noise.EVEN, even)
-    for index, (size, low, tall) in enumerate(_UNEVEN):
-        wave = noise.fractal(east, north, size * scale, 1, seed + 550 + index)
-        factor *= np.exp((low + (tall - low) * crowded) * wave)
-    clumps = flame_noise.clumping(shot, east, north)
-    factor *= 1.0 - crowded * (1.0 - _BETWEEN) * (1.0 - noise.smoothstep(*flame_noise.CLUMPS, clumps))
-    long = np.clip(even * np.minimum(factor, _TALLEST), 0.0, _LENGTHS[1]) * (fuel > _LEAST_FUEL)
-    height = long * flame_noise.upright(long, carrying_wind(shot))
+    even = flame_state.even_length(shot, row, column, speed)
+    long = np.minimum(even * flame_state.unevenness(shot, place, even), flame_state.LONGEST)
     age = time - ground.arrival_at(row, column)
-    patch = noise.fractal(east, north, _PATCH * scale, 2, seed + 560) + clumps
-    outside = noise.smoothstep(-0.06, 0.06, flame_noise.gap_margin(east, north, even, scale, seed))
-    found = height * _phase(age, speed, residence, long, patch) * outside
-    return np.where(found >= _LENGTHS[0], found, 0.0)
-
-
-def _phase(age: Array, speed: Array, residence: Array, length: Array, patch: Array) -> Array:
-    """Return the height of flames of an age (s) as a share of their full height."""
-    tall = np.clip(_DEEP * length / speed, _TALL_PART * residence, _LONGEST)
-    out = np.maximum(residence, 1.6 * tall)
-    up = np.clip(age / (_RISING * tall), 0.0, 1.0)
-    down = 1.0 - (1.0 - _LOW) * noise.smoothstep(0.0, 1.0, (age - tall) / (out - tall))
-    fuel = np.clip(0.45 + 1.2 * patch, 0.0, 1.2)  # fuel behind the leading flames burns in patches
-    down *= 1.0 + (fuel - 1.0) * noise.smoothstep(0.3, 1.0, age / tall)
-    main = up * (2.0 - up) * down * (1.0 - noise.smoothstep(1.0, 1.3, age / out))
-    share = np.minimum(_RESIDUAL[0], _RESIDUAL[1] / np.maximum(length, 0.1))
-    late = (age - out) / residence
-    residual = share * np.exp(-np.clip(late, 0.0, 9.0)) * np.clip(2.0 * patch - 0.8, 0.0, 1.0)
-    residual *= (late > -0.5) * (1.0 - noise.smoothstep(1.2, 1.8, late))
-    residual *= noise.smoothstep(*_WOOD, residence)
-    return np.where(age > 0.0, np.maximum(main, residual), 0.0)
+    share = flame_phase.height(age, speed, residence, long, flame_state.patches(shot, place))
+    found = long * flame_noise.upright(long, carrying_wind(shot)) * share
+    return np.where(found >= flame_state.LEAST, found, 0.0)
 
 
 def _parts(spacing: float) -> Array:

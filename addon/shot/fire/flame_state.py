@@ -14,10 +14,9 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ..terrain import noise
-from . import flame_noise, flame_size
+from . import flame_noise, flame_phase, flame_size
 
 FARTHEST = 9000.0  # m, bound of the distance from the front
-BLOCK = 0.35  # depth of burning fuel in a solved front, flame lengths
 LEAST, LONGEST = 0.15, 75.0  # m, flame lengths
 TALLEST = 1.35  # length of the longest flames over the mean length (by eye)
 RAGGED = ((14.0, 3.5), (4.5, 1.2))  # m, sizes and shifts of the ragged edge of a crown fire's front (by eye)
@@ -28,15 +27,7 @@ _BETWEEN = 0.55  # length between clumps of crowns over the length in them (by e
 _LEAST_FUEL = 0.05  # kg/m2
 _HELD = 0.5, 0.4  # width over which flames end at the perimeter: flame lengths; at most, cells (by eye)
 
-_BEGIN = (0.25, 0.4)  # distances behind the front, flame lengths, between which low flames take over
-_LOW = 0.35, 0.08  # length of low flames over the full length: at the front; of burned fuel (by eye)
 _PATCH = 9.0  # m, size of patches of fuel that burn on behind the front
-_PATCHES = 2.2  # length of low flames over the noise of patches; half of the ground glows only (by eye)
-_RESIDUAL = (0.12, 1.5)  # residual flames: fraction of the length, and at most, m (by eye)
-_WOOD = (20.0, 60.0)  # s, residence times from which fuel leaves residual flames; grass burns out (assumed)
-_TALL_PART = 1.0 / 3.0  # fraction of the residence time with tall flames
-_LATEST = 900.0  # s
-_OUT = (1.3, 1.8)  # ends: of low flames over the burning time; of residual flames after it over the residence
 
 Array = NDArray[np.float64]
 
@@ -86,17 +77,19 @@ def at(
     age = time - bilinear(ground.burn_time, row, column)
     distance = np.clip(age * speed, -FARTHEST, FARTHEST)
     low = np.zeros(len(length))
-    behind = np.flatnonzero((length > 0.0) & (distance > _BEGIN[0] * length))
-    low[behind] = _low_height(
-        shot,
-        place[behind],
-        length[behind],
-        age[behind],
-        distance[behind],
-        speed[behind],
-        residence[behind],
-        wind,
-    )
+    behind = np.flatnonzero((length > 0.0) & flame_phase.is_behind(distance, length))
+    if len(behind):
+        share = flame_phase.low(
+            age[behind],
+            distance[behind],
+            speed[behind],
+            residence[behind],
+            length[behind],
+            patches(shot, place[behind]),
+        )
+        long = length[behind] * share
+        low[behind] = long * flame_noise.upright(long, wind)
+    low = np.where(low >= LEAST, low, 0.0)
     return FlameState(length, distance, low, speed * residence)
 
 
@@ -149,16 +142,11 @@ def unevenness(shot: Any, place: Array, even: Array) -> Array:
     return factor
 
 
-def burning_time(length: Array, speed: Array, residence: Array) -> Array:
-    """Return the time (s) in which the fuel at a place burns with flames, of a length (m)."""
-    tall = np.clip(BLOCK * length / speed, _TALL_PART * residence, _LATEST)
-    return np.maximum(residence, 1.6 * tall)
-
-
-def last_age(length: Array, speed: Array, residence: Array) -> Array:
-    """Return the age (s) from which no place with flames of at most this length (m) burns."""
-    out = burning_time(length, speed, residence)
-    return np.where(residence > _WOOD[0], np.maximum(_OUT[0] * out, out + _OUT[1] * residence), _OUT[0] * out)
+def patches(shot: Any, place: Array) -> Array:
+    """Return noise (n,) at scene points (n, 2), m. Fuel burns on behind the front where it is high."""
+    east, north = place.T
+    wave = noise.fractal(east, north, _PATCH * pattern_scale(shot), 2, shot.full.settings.seed + 560)
+    return wave + flame_noise.clumping(shot, east, north)
 
 
 def _held(ground: Any, row: Array, column: Array, length: Array) -> Array:
@@ -167,32 +155,3 @@ def _held(ground: Any, row: Array, column: Array, length: Array) -> Array:
     width = np.minimum(_HELD[0] * length / cell, _HELD[1])
     inside = bilinear(ground.burned, row, column) - 0.5
     return noise.smoothstep(0.0, 1.0, 1.0 + inside / np.maximum(width, 1.0e-3))
-
-
-def _low_height(
-    shot: Any,
-    place: Array,
-    length: Array,
-    age: Array,
-    distance: Array,
-    speed: Array,
-    residence: Array,
-    wind: tuple[float, float],
-) -> Array:
-    """Return the height (n,), m, of flames in patches of fuel that burn on behind the front."""
-    scale, seed = pattern_scale(shot), shot.full.settings.seed
-    east, north = place.T
-    patch = noise.fractal(east, north, _PATCH * scale, 2, seed + 560)
-    patch += flame_noise.clumping(shot, east, north)
-    out = burning_time(length, speed, residence)
-    near, far = _LOW
-    share = near + (far - near) * noise.smoothstep(0.0, 1.0, age / out)
-    share *= np.clip(_PATCHES * patch, 0.0, 1.2) * (1.0 - noise.smoothstep(1.0, _OUT[0], age / out))
-    late = (age - out) / residence
-    residual = np.minimum(_RESIDUAL[0], _RESIDUAL[1] / np.maximum(length, LEAST))
-    residual *= np.exp(-np.clip(late, 0.0, 9.0)) * np.clip(2.0 * patch - 0.8, 0.0, 1.0)
-    residual *= (late > -0.5) * (1.0 - noise.smoothstep(1.2, _OUT[1], late))
-    residual *= noise.smoothstep(*_WOOD, residence)
-    low = length * np.maximum(share, residual) * noise.smoothstep(*_BEGIN, distance / length)
-    height = low * flame_noise.upright(low, wind)
-    return np.where(height >= LEAST, height, 0.0)

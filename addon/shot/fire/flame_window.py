@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...geometry.grids import dilate
 from ..terrain.terrain import UNKNOWN, box
-from . import flame_state
+from . import flame_phase, flame_state
 
 AHEAD = 2.2  # flame lengths ahead of the front over which flames lean
 _LONG_BEFORE, _LONG_AFTER = 1.0e4, 1.0e4  # s, ages beyond these are not looked at
@@ -114,7 +114,7 @@ def find(shot: Any, time: float) -> FlameWindow | None:
     far = np.sqrt(2.0) * scale * sum(shift for _, shift in flame_state.RAGGED)
     fields = np.zeros((4, *recent.shape))
     fields[0][recent] = (AHEAD * longest + far) / speed
-    fields[1][recent] = flame_state.last_age(longest, speed, residence) + (longest + far) / speed
+    fields[1][recent] = flame_phase.last_age(speed, residence, longest) + (longest + far) / speed
     fields[2][recent] = 1.0 / speed
     fields[3][recent] = even
     lead, lag, pace = (dilate(each, 1) for each in fields[:3])

@@ -30,6 +30,41 @@ def test_half_of_the_light_is_emitted_within_the_depth_of_a_front(away):
     assert flame_distance.measure(line(away), rays, LIGHT, 200.0, 1.0e6).max() == 0.0
 
 
+def rays_ahead(width=32, height=4):
+    """Rays to the north over level ground from its height of 0.8 m; some go slightly up."""
+    ahead = np.ones((height, width, 3))
+    ahead[..., 0], ahead[..., 2] = np.linspace(-0.2, 0.2, width), np.linspace(0.03, 0.0, height)[:, None]
+    ahead /= np.linalg.norm(ahead, axis=-1, keepdims=True)
+    return Rays(np.array([0.0, 0.0, 0.8]), ahead, np.zeros((height, width)), None)
+
+
+def dense(found, rays):
+    """Distance of half of the light by a march to 1000 distances, m."""
+    at = np.geomspace(5.0, 100.0, 1000).astype(np.float32)
+    flat = rays.directions.reshape(-1, 3)
+    red = volume.march([], rays.origins, flat, np.broadcast_to(at, (len(flat), 1000)), LIGHT, flames=found)
+    return at[(red[..., 0] < 0.5 * red[:, -1:, 0]).sum(axis=1)].reshape(rays.directions.shape[:2])
+
+
+@pytest.mark.parametrize("away", [20.0, 70.0])
+def test_distances_are_exact_however_far_flames_are_drawn(away):
+    rays = rays_ahead()
+    found = flame_distance.measure(line(away), rays, LIGHT, 12_000.0, 1.0)
+    error = np.abs(found - dense(line(away), rays))
+    assert np.median(error) < 0.005 * away
+    assert np.percentile(error, 95) < 0.03 * away
+
+
+def test_each_part_of_a_picture_has_its_own_range():
+    y, x = np.meshgrid(np.arange(-10.0, 90.0, 0.5), np.arange(-50.0, 50.0, 0.5), indexing="ij")
+    lengths = np.where(np.abs(y - np.where(x < 0.0, 24.0, 74.0)) < 4.0, 6.0, 0.0).astype(np.float32)
+    both = flames([(lengths, np.zeros_like(lengths), (-50.0, -10.0), 0.5)])
+    rays = rays_ahead(64)
+    error = np.abs(flame_distance.measure(both, rays, LIGHT, 12_000.0, 1.0) - dense(both, rays))
+    assert np.median(error[:, :28]) < 0.15
+    assert np.median(error[:, 36:]) < 0.4
+
+
 def test_a_cell_is_repeated_for_the_pixels_of_an_odd_picture():
     cells = np.arange(4, dtype=np.float32).reshape(2, 2)
     assert flame_distance.of_pixels(cells, 3, 3).tolist() == [[0, 0, 1], [0, 0, 1], [2, 2, 3]]
