@@ -1,1 +1,1 @@
-"""Facts about the King Fire, and the synthetic sample run."""
+"""Facts about the King Fire, the synthetic sample run, and the library of solved flames."""

@@ -20,6 +20,7 @@ AIR = 1.2 * 1.005 * 293.0  # kJ/m3: density, specific heat and temperature of ai
 UNIT_HEAT = AIR * 9.81**0.5  # kW/m (lines) or kW (crowns) at heat 1 and L = 1 m
 CONVECTED = 0.7  # share of the heat release
 TEMPERATURE = 293.0  # K, of air
+_GAP = 0.15  # L, length under which a place does not count as burning
 HEAT_OF_COMBUSTION = 18_000.0  # kJ/kg, of wood gas
 Row = tuple[str, str, float, float]
 
@@ -54,24 +55,20 @@ def rows(path: Path) -> Iterator[Row]:
     with np.load(path, allow_pickle=False) as stored:
         block = {name: stored[name] for name in stored.files}
     crown = bool(block["crown"].any())
-    heat = float(block["heat"].max()) * UNIT_HEAT / CONVECTED
+    tips = pack.find_tips(block["codes"], float(block["cell"]), base(block), crown)
+    burning = float((tips.length > _GAP).mean())
+    heat = float(block["heat"].max()) * UNIT_HEAT / CONVECTED / burning
     if crown:
-        diameter = 2.0 * float(block["crown"][2])
-        yield (
-            "length above foliage's base, L",
-            "Heskestad 1983",
-            1.0 - float(block["crown"][0]),
-            0.235 * heat**0.4 - 1.02 * diameter,
-        )
-        yield from temperatures(block, heat)
-        return
-    yield "length, L", "Thomas 1963", 1.0, 0.0266 * heat ** (2.0 / 3.0)
-    place = pack.tips(block["codes"], float(block["cell"]), base(block), crown)
-    if block["wind"]:
-        yield from tilts(place, float(block["wind"]), heat)
+        length = 0.235 * heat**0.4 - 1.02 * 2.0 * float(block["crown"][2])
+        yield "length above the foliage's base, L", "Heskestad 1983", 1.0 - float(block["crown"][0]), length
     else:
-        yield from temperatures(block, heat)
-    yield "spacing of peaks, L", "Finney et al. 2013: in proportion to L", spacing(place, block), 0.0
+        yield "burning share of the line", "-", burning, 0.0
+        yield "length, L", "Thomas 1963", 1.0, 0.0266 * heat ** (2.0 / 3.0)
+        yield "spacing of peaks, L", "Finney et al. 2013: in proportion to L", spacing(tips, block), 0.0
+    if block["wind"]:
+        yield from tilts(tips, float(block["wind"]), heat)
+    else:
+        yield from temperatures(block, burning)
 
 
 def base(block: dict[str, NDArray]) -> float:
@@ -79,9 +76,9 @@ def base(block: dict[str, NDArray]) -> float:
     return float(block["front"]) - 0.5 * float(block["depth"])
 
 
-def tilts(place: NDArray[np.float64], wind: float, heat: float) -> Iterator[Row]:
+def tilts(tips: pack.Tips, wind: float, heat: float) -> Iterator[Row]:
     """Yield the tilt (degrees) of the median tip against three correlations."""
-    across, height = np.median(place, axis=0)
+    across, height = tips.median(tips.x), tips.median(tips.height)
     tilt = float(np.degrees(np.arctan2(across, height)))
     yield (
         "tilt",
@@ -99,7 +96,7 @@ def tilts(place: NDArray[np.float64], wind: float, heat: float) -> Iterator[Row]
     )
 
 
-def temperatures(block: dict[str, NDArray], heat: float) -> Iterator[Row]:
+def temperatures(block: dict[str, NDArray], burning: float) -> Iterator[Row]:
     """Yield the mean temperature excess (K) on the axis at three heights against McCaffrey (1979).
 
     His fires are round; a line has the zones of a round flame of its length: z / Q^(2/5) is 0.2 at the tip.
@@ -111,15 +108,14 @@ def temperatures(block: dict[str, NDArray], heat: float) -> Iterator[Row]:
         measured = (
             800.0 if scaled < 0.08 else 63.0 / scaled if scaled < 0.2 else 21.6 * scaled ** (-5.0 / 3.0)
         )
-        value = np.interp(bottom + at * (1.0 - bottom), height, block["excess"]) * TEMPERATURE
+        value = np.interp(bottom + at * (1.0 - bottom), height, block["excess"]) * TEMPERATURE / burning
         yield f"excess, K: {zone}", "McCaffrey 1979", float(value), measured
 
 
-def spacing(place: NDArray[np.float64], block: dict[str, NDArray]) -> float:
+def spacing(tips: pack.Tips, block: dict[str, NDArray]) -> float:
     """Return the mean distance (L) between peaks of the flame along the line that rise 0.1 L over troughs."""
     frames, _, ny, _ = block["codes"].shape
-    reach = np.hypot(*place.T).reshape(frames, ny)
-    peaks = sum(_count_peaks(line) for line in reach)
+    peaks = sum(_count_peaks(line) for line in tips.length.reshape(frames, ny))
     return frames * ny * float(block["cell"]) / max(peaks, 1)
 
 

@@ -2,7 +2,8 @@
 
 The flame length is the median, over time and places along the line, of the greatest distance from the middle
 of the burning base at which gas is richer than stoichiometric: the length that the flame exceeds half of the
-time (intermittency 0.5; Zukoski, Cetegen and Kubota 1985).
+time (intermittency 0.5; Zukoski, Cetegen and Kubota 1985). Places count by their burning gas, so that gaps in
+the line do not count.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 LIGHTEST = 0.3  # mixture fraction below which gas is not seen, and stored as 0 (by eye)
 FADING = 0.2  # share of the frames that blend into the first ones
 _LIGHTEST_CODE = 255.0 * (LIGHTEST / 4.0) ** 0.5
-HIGHEST, FARTHEST = 1.6, 2.2  # flame lengths above the ground and behind the front that are stored
+HIGHEST, FARTHEST = 1.8, 2.2  # flame lengths above the ground and behind the front that are stored
 _RIM = 0.12  # flame lengths in which flames fade out below the highest and before the farthest cells
 _STEP = 4  # codes between stored levels
 _DISSOLVING = (0.7, 1.1)  # greatest mixture fraction nearby between which gas is softened (by eye)
@@ -56,22 +57,51 @@ def mixture(codes: NDArray[np.uint8]) -> NDArray[np.float32]:
     return (4.0 * (np.arange(256, dtype=np.float32) / 255.0) ** 2)[codes]
 
 
-def tips(codes: NDArray[np.uint8], cell: float, base: float, crown: bool) -> NDArray[np.float64]:
-    """Return (n, 2): x from the base's middle, and height, of the flame's tip at each time and y.
+@dataclass(frozen=True)
+class Tips:
+    """Tips of a flame: the farthest burning cell from the middle of the base, at each time and y.
 
-    The tip is the farthest burning cell. `cell` and `base` (x of the base's middle) may be in any unit of
-    length. A crown has one tip at a time. The tip is 0, 0 at places without burning gas.
+    `x` (from the base's middle), `height` and `length` (n,) are in the unit of the cell, and `weight` (n,)
+    counts the burning cells, 0 in gaps. A crown has one tip at a time, its highest, whose length is its height.
     """
+
+    x: NDArray[np.float64]
+    height: NDArray[np.float64]
+    length: NDArray[np.float64]
+    weight: NDArray[np.int64]
+
+    def median(self, values: NDArray[np.float64]) -> float:
+        """Return the median of `values` (n,), weighted by burning gas."""
+        order = np.argsort(values)
+        total = np.cumsum(self.weight[order])
+        return float(values[order][np.searchsorted(total, 0.5 * total[-1])])
+
+
+def find_tips(codes: NDArray[np.uint8], cell: float, base: float, crown: bool) -> Tips:
+    """Return the tips of frames whose base has its middle at x = `base` from the first face."""
     burning = mixture(codes) > 1.0
     burning = burning.any(axis=2)[:, :, None] if crown else burning
     nz, nx = burning.shape[1], burning.shape[3]
     z, x = np.meshgrid((np.arange(nz) + 0.5) * cell, (np.arange(nx) + 0.5) * cell - base, indexing="ij")
     distance = z if crown else np.hypot(x, z)
-    order = np.argsort(distance, axis=None)
-    columns = burning.transpose(0, 2, 1, 3).reshape(-1, nz * nx)[:, order[::-1]]
-    farthest = order[::-1][columns.argmax(axis=1)]
-    place = np.stack([x.ravel()[farthest], z.ravel()[farthest]], axis=1)
-    return np.where(columns.any(axis=1)[:, None], place, 0.0)
+    farthest = np.argsort(distance, axis=None)[::-1]
+    columns = burning.transpose(0, 2, 1, 3).reshape(-1, nz * nx)
+    weight = columns.sum(axis=1)
+    tip = farthest[columns[:, farthest].argmax(axis=1)]
+    x, height, length = (np.where(weight > 0, each.ravel()[tip], 0.0) for each in (x, z, distance))
+    return Tips(x, height, length, weight)
+
+
+def base_of(settings: dict[str, Any]) -> float:
+    """Return x of the middle of the burning base, in units."""
+    return float(settings["front"]) - (0.0 if settings.get("crown") else 0.5 * float(settings["depth"]))
+
+
+def flame_length(solved: Solved) -> float:
+    """Return the flame length in units."""
+    settings = solved.settings
+    tips = find_tips(solved.codes, 1.0 / settings["cells"], base_of(settings), bool(settings.get("crown")))
+    return tips.median(tips.length)
 
 
 def mean_excess(solved: Solved) -> NDArray[np.float64]:
@@ -92,19 +122,6 @@ def mean_excess(solved: Solved) -> NDArray[np.float64]:
         return kept * excess[core].mean(axis=(0, 2, 3))
     mean = np.mean([excess.astype(np.float32)[frame].mean(axis=1) for frame in solved.codes], axis=0)
     return kept * mean.max(axis=1)
-
-
-def base_of(settings: dict[str, Any]) -> float:
-    """Return x of the middle of the burning base, in units."""
-    return float(settings["front"]) - (0.0 if settings.get("crown") else 0.5 * float(settings["depth"]))
-
-
-def flame_length(solved: Solved) -> float:
-    """Return the flame length in units."""
-    settings = solved.settings
-    crown = bool(settings.get("crown"))
-    place = tips(solved.codes, 1.0 / settings["cells"], base_of(settings), crown)
-    return float(np.median(place[:, 1] if crown else np.hypot(*place.T)))
 
 
 def save(path: Path, solved: Solved) -> float:

@@ -31,7 +31,7 @@ SIZES: dict[str, tuple[float, float, float]] = {
     "crown": (1.2, 1.2, 2.0),
 }
 """Size of the box along x, y and z in units, which are about a flame length."""
-CELLS = {"calm": 52, "breeze": 56, "wind": 50, "crown": 60}
+CELLS = {"calm": 58, "breeze": 56, "wind": 50, "crown": 60}
 """Cells to a unit, so that all blocks together have less than 20 MB."""
 CROWN = {"crown": 1, "crown_base": 0.1, "crown_top": 0.62, "crown_radius": 0.22}
 KINDS: dict[str, dict[str, float]] = {

@@ -40,13 +40,20 @@ def path(tmp_path: Path) -> Path:
 def test_a_packed_flame_is_one_long_and_keeps_its_place(path):
     length = pack.flame_length(solved())
     block = flame_library.read(path)
-    place = pack.tips(block.codes, block.cell, block.front - 0.15 / length, False)
-    assert np.median(np.hypot(*place.T)) == pytest.approx(1.0, abs=0.01)
+    tips = pack.find_tips(block.codes, block.cell, block.front - 0.15 / length, False)
+    assert tips.median(tips.length) == pytest.approx(1.0, abs=0.01)
     assert block.cell == pytest.approx(1 / (16 * length))
     burning = np.flatnonzero(block.codes.any(axis=(0, 1, 2)))
     assert (burning[-1] + 1) * block.cell == pytest.approx(block.front, abs=block.cell)
     assert (block.interval, block.wind) == pytest.approx((0.09 / length**0.5, 0.5 / length**0.5))
     assert block.fade == 2
+
+
+def test_gaps_in_a_line_do_not_count():
+    flame = solved()
+    codes = flame.codes.copy()
+    codes[:, :, :10] = 0
+    assert pack.flame_length(dataclasses.replace(flame, codes=codes)) == pack.flame_length(flame)
 
 
 def test_the_temperature_on_the_axis_is_that_of_stoichiometric_gas():
