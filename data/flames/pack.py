@@ -62,7 +62,7 @@ class Tips:
     """Tips of a flame: the farthest burning cell from the middle of the base, at each time and y.
 
     `x` (from the base's middle), `height` and `length` (n,) are in the unit of the cell, and `weight` (n,)
-    counts the burning cells, 0 in gaps. A crown has one tip at a time, its highest, whose length is its height.
+    counts the burning cells, 0 in gaps. A crown has one tip at a time, its highest; its length is its height.
     """
 
     x: NDArray[np.float64]
