@@ -8,6 +8,8 @@ import re
 from datetime import UTC, datetime
 from pathlib import Path
 
+from . import limits
+
 OUTPUT_PRESETS = ("compositing", "editorial")
 """Names of `shot.settings.output_presets`, known without its imports."""
 
@@ -50,6 +52,9 @@ def moment(text: str) -> datetime:
         raise argparse.ArgumentTypeError(
             f"must be a time with its zone, 2014-09-17T16:00-07:00, not {text!r}"
         )
+    first, last = limits.RUN_YEARS
+    if not first <= value.year <= last:
+        raise argparse.ArgumentTypeError(f"must be in the years {first} to {last}, not {text!r}")
     return value.astimezone(UTC)
 
 

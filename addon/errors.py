@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import errno
+import os
 import shutil
 import sqlite3
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike, strerror
@@ -27,6 +29,7 @@ __all__ = [
     "is_worth_another_try",
     "read_fault",
     "reading",
+    "refuse_odd",
     "writing",
 ]
 
@@ -123,9 +126,10 @@ def reading(path: str | PathLike[str], kind: str = "") -> Iterator[None]:
     Raises
     ------
     InputError
-        Replaces other exceptions of the system, SQLite, Python and libraries. NameError and ImportError pass:
-        these are faults of the code.
+        The file is a pipe or a device. Replaces other exceptions of the system, SQLite, Python and libraries.
+        NameError and ImportError pass: these are faults of the code.
     """
+    refuse_odd(path)
     try:
         yield
     except (Error, UsageError, NameError, ImportError):  # the last two are faults of the code
@@ -137,6 +141,22 @@ def reading(path: str | PathLike[str], kind: str = "") -> Iterator[None]:
             path = error.filename
         reason = read_fault(error, kind).replace(f"'{path}'", "it")
         raise input_error(path, reason) from error
+
+
+def refuse_odd(path: str | PathLike[str]) -> None:
+    """Refuse a pipe, a device or a socket, also behind a link: reading it may wait or never end.
+
+    Raises
+    ------
+    InputError
+        It is one. A missing file is left to its reader.
+    """
+    try:
+        mode = os.stat(path).st_mode
+    except (OSError, ValueError):
+        return
+    if not stat.S_ISREG(mode) and not stat.S_ISDIR(mode):
+        raise input_error(path, "is a pipe or a device; name a file")
 
 
 def read_fault(error: Exception, kind: str = "") -> str:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from . import limits
-from .errors import input_error, writing
+from .errors import input_error, refuse_odd, writing
 
 _MARKS = b",", b"[", b"{", b"<"  # each begins a value of JSON, XML or CSV
 _BLOCK = 1 << 22  # bytes
@@ -94,6 +94,7 @@ def check_text_size(path: Path) -> None:
     InputError
         It is not.
     """
+    refuse_odd(path)
     size = path.stat().st_size
     if size > limits.TEXT_BYTES:
         most = f"at most {limits.TEXT_BYTES / 1e6:,.0f} MB are read"

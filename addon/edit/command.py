@@ -47,6 +47,7 @@ def _run(arguments: argparse.Namespace) -> None:
     from ..auto_framing import fitted_scene
     from ..did_you_mean import suggestion
     from ..errors import UsageError
+    from ..escaped import escaped
     from ..progress import count, result, say
     from ..shot import passes
     from ..shot.runs import scene_runs
@@ -62,7 +63,7 @@ def _run(arguments: argparse.Namespace) -> None:
         raise UsageError(f'--pass: "{arguments.name}" is not one of {", ".join(known)}{hint}')
     films_of_cameras = media.films(shot, arguments.name, arguments.film or arguments.out, arguments.out)
     edit = cut.Edit(
-        shot.settings.path.stem,
+        escaped(shot.settings.path.stem),
         shot.settings.time.rate,
         tuple(films_of_cameras),
         tuple(cut.cut(films_of_cameras)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..escaped import escaped
 from ..run import labels, times
 from ..shot.shot import Shot
 from ..stations import events, reading
@@ -21,7 +22,7 @@ def find(shot: Shot) -> list[Marker]:
         seconds = times.seconds(shot.run, event.time)
         if shown.step > 0.0 and shown.first <= seconds <= shown.last:
             frame = 1 + round((seconds - shown.first) / shown.step)
-            markers.append(Marker(frame, event.words, colour))
+            markers.append(Marker(frame, escaped(event.words), colour))
     return sorted(markers, key=lambda each: (each.frame, each.words))
 
 

@@ -11,6 +11,8 @@ from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..errors import Error, refuse_odd
+
 NAME = "rsl.error.0000"
 _WRITTEN = re.compile(r"Timing for Writing (\S+) for domain")
 _SUCCESS = "SUCCESS COMPLETE WRF"
@@ -30,11 +32,12 @@ class ModelLog:
 def read(folder: Path) -> ModelLog:
     """Read the log in a folder; a missing or unreadable log is empty."""
     try:
+        refuse_odd(folder / NAME)
         with (folder / NAME).open("rb") as file:
             size = file.seek(0, 2)
             file.seek(max(0, size - _MOST))
             text = file.read().decode("utf-8", "replace")
-    except OSError:
+    except (OSError, Error):
         return ModelLog()
     written = Counter(Path(name).name for name in _WRITTEN.findall(text))
     lines = text.splitlines()

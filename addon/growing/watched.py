@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
-from datetime import datetime, timedelta
+import math
+from dataclasses import asdict, dataclass, fields
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 from .. import output
-from ..errors import input_error
+from ..errors import Error, input_error, refuse_odd
 
 TIMES, STATUS, PAGE = "times.json", "status.json", "index.html"
 FINAL = ("ended", "failed")
@@ -109,12 +110,36 @@ def times(folder: Path) -> list[Accepted]:
         ``times.json`` is damaged.
     """
     path = folder / TIMES
+    refuse_odd(path)
     try:
-        return [Accepted(**each) for each in json.loads(path.read_text(encoding="utf-8"))]
+        return [_accepted(each) for each in json.loads(path.read_text(encoding="utf-8"))]
     except FileNotFoundError:
         return []
-    except (OSError, ValueError, TypeError) as error:
+    except (OSError, ValueError, TypeError, OverflowError, RecursionError) as error:
         raise input_error(path, f"cannot be read ({error}); choose another --out") from None
+
+
+def _accepted(entry: Any) -> Accepted:
+    """Convert an entry of ``times.json``.
+
+    Raises
+    ------
+    TypeError, ValueError
+        It is not one: its numbers become names of folders.
+    """
+    found = Accepted(**entry)
+    for each in fields(Accepted):
+        value = getattr(found, each.name)
+        kinds: tuple[type, ...] = {"int": (int,), "float": (int, float)}.get(str(each.type), (str,))
+        if not isinstance(value, kinds) or isinstance(value, bool):
+            raise TypeError(f"{each.name} is {value!r}")
+    if found.generation < 1 or found.revision < 1 or not math.isfinite(found.seconds):
+        raise ValueError("a number is out of range")
+    if found.moment.tzinfo is None or found.clock < 0.0:
+        raise ValueError("a time has no zone")
+    for moment in (found.moment, found.origin):
+        moment.astimezone(UTC)
+    return found
 
 
 def last_generation(accepted: list[Accepted]) -> list[Accepted]:
@@ -155,8 +180,9 @@ def newest(folder: Path) -> Path | None:
 def status(folder: Path) -> dict[str, Any]:
     """Read ``status.json``; empty if there is none."""
     try:
+        refuse_odd(folder / STATUS)
         found = json.loads((folder / STATUS).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError, Error):
         return {}
     return found if isinstance(found, dict) else {}
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from .. import files
 from ..database import BROKEN
-from ..errors import input_error
+from ..errors import input_error, refuse_odd
 from ..imaging.credits import Credits
 
 NAME = "manifest.json"
@@ -29,6 +29,7 @@ def read(out: Path) -> dict[str, Any]:
         The file exists and is not a manifest.
     """
     path = out / NAME
+    refuse_odd(path)
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except (FileNotFoundError, NotADirectoryError):

@@ -9,6 +9,7 @@ import firetwin_core
 from firetwin_core.run import Run
 
 from ..data import history
+from ..escaped import escaped
 from ..progress import result
 from . import info, observations
 
@@ -30,7 +31,7 @@ def of_model(name: str, made: str, synthetic: bool) -> list[dict[str, str]]:
 
 def show(rows: list[dict[str, str]], as_json: bool) -> None:
     """Print rows for people, or as JSON."""
-    page = "\n".join(f"{row['kind']:<14}{row['text']}" for row in rows)
+    page = "\n".join(f"{escaped(row['kind']):<14}{escaped(row['text'])}" for row in rows)
     result(json.dumps(rows, indent=1) if as_json else page)
 
 

@@ -89,8 +89,8 @@ def field_names(run: Run) -> list[str]:
 
 def of_file(path: Path, cache: Path, progress: Progress = silent) -> str:
     """Hash a file outside a run, with the hash cached in `cache`."""
-    place = cache / f"file-{fingerprint({'file': str(path.resolve())})}.json"
     with reading(path):
+        place = cache / f"file-{fingerprint({'file': str(path.resolve())})}.json"
         return _hashes(path.parent, [path], (place,), progress)[path]
 
 

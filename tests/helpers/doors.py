@@ -553,6 +553,9 @@ STATES: dict[str, Callable[[Door, Path], Outcome]] = {
 }
 
 
+_ONCE = {"own", "own, changed, --overwrite", "others beside it", "full disk", "killed"}
+
+
 def run(name: str, state: str, path: str, folder: Path) -> Outcome:
     """Run a state of a door in an empty folder."""
     with pytest.MonkeyPatch.context() as patch:
@@ -563,8 +566,8 @@ def run(name: str, state: str, path: str, folder: Path) -> Outcome:
 
 
 def states(name: str, path: str) -> list[str]:
-    """List the states that are tried for a file; a kill leaves all files of a command as they were."""
-    return [state for state in STATES if state != "killed" or path == DOORS[name].outputs[0]]
+    """List the states that are tried for a file; those of whole commands only for their first file."""
+    return [state for state in STATES if state not in _ONCE or path == DOORS[name].outputs[0]]
 
 
 def table() -> Iterator[tuple[str, ...]]:

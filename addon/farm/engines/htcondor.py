@@ -56,10 +56,12 @@ class HTCondor(Engine):
         Raises
         ------
         UsageError
-            The name of the output folder contains a macro of HTCondor.
+            The name of the output folder contains a macro of HTCondor, or it or an option has several lines.
         """
         if "$(" in str(batch.out):
             raise UsageError(f"{batch.out}: HTCondor would expand $( as a macro; choose another --out")
+        if not all(each.isprintable() for each in (str(batch.out), *batch.options)):
+            raise UsageError("--out: HTCondor reads each line as a command; choose a name of one line")
         folder = self.folder(batch.out)
         (folder / "log").mkdir(parents=True, exist_ok=True)
         lines = [each for each in batch.options if "=" in each and not each.startswith("-")]

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import input_error, reading
+from ...errors import input_error, reading, refuse_odd
 from . import heartbeat, optional_packages
 
 Array = NDArray[np.float64]
@@ -89,6 +89,7 @@ class GribField:
 def is_grib(path: Path) -> bool:
     """Check for a GRIB file of edition 2 by its first bytes."""
     try:
+        refuse_odd(path)
         with path.open("rb") as file:
             head = file.read(8)
     except OSError:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import InputError, input_error, reading
+from ...errors import InputError, input_error, reading, refuse_odd
 from . import heartbeat, netcdf3_length, optional_packages
 
 _MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
@@ -24,6 +24,7 @@ UNWRITTEN = 9.9e35
 def is_netcdf(path: Path) -> bool:
     """Check whether a file begins with netCDF's signature."""
     try:
+        refuse_odd(path)
         with path.open("rb") as file:
             return file.read(8).startswith(_MAGIC)
     except OSError:

@@ -1,9 +1,11 @@
 """Text that goes out: whatever a file holds, one line that no terminal acts upon."""
 
+import argparse
 import unicodedata
 
 import pytest
-from firetwin import escaped, progress
+from firetwin import argument_types, escaped, progress
+from firetwin.run import citations
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -44,6 +46,17 @@ def test_what_is_shown(text, shown):
 )
 def test_a_message_has_no_secret_of_a_url(text, shown):
     assert escaped.message(text) == shown
+
+
+def test_citations_are_escaped_for_people(capsys):
+    citations.show([{"kind": "run", "text": "a\u202eb\x1b[31m"}], as_json=False)
+    assert capsys.readouterr().out == "run           a\\u202eb\\x1b[31m\n"
+
+
+@pytest.mark.parametrize("text", ["0001-01-01T00:00+14:00", "9999-12-31T23:59-12:00", "999-01-01T00:00Z"])
+def test_times_of_options_have_years_of_runs(text):
+    with pytest.raises(argparse.ArgumentTypeError, match=r"years 1000 to 9998|must be a time"):
+        argument_types.moment(text)
 
 
 def test_a_long_message_keeps_its_beginning_and_its_end():

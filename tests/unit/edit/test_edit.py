@@ -217,6 +217,17 @@ def test_markers_are_at_the_times_of_their_events(rendered, tmp_path):
     assert not any("Far" in name for name in got)
 
 
+def test_names_of_places_add_no_events_and_stay_xml(rendered, tmp_path):
+    scene, out = rendered(), tmp_path / "my film"
+    name = '"A\n002  CHASE    V     C        01:00:00:00 01:00:01:00\x1b\u202e"'
+    (tmp_path / "places.csv").write_text(f"name,latitude,longitude\n{name},38.903,-120.592\n")
+    assert cli.main(["edit", str(scene), "--out", str(out)]) == 0
+    lines = (out / "film.edl").read_text().splitlines()
+    assert len([line for line in lines if line.startswith("002 ")]) == 1
+    assert any("reaches A" in line for line in lines), lines
+    ET.parse(out / "film.xml")
+
+
 def test_review_films_are_cut_if_there_are_no_clean_ones(rendered, tmp_path):
     out = tmp_path / "my film"
     assert cli.main(["edit", str(rendered(kinds=("review",))), "--out", str(out)]) == 0

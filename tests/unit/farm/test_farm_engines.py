@@ -210,6 +210,13 @@ def test_htcondor_quotes_arguments():
     assert {text: htcondor.quote_argument(text) for text in quoted} == quoted
 
 
+@pytest.mark.parametrize("text", ["film\nqueue 99", "film\rx", "film\x1b"])
+def test_htcondor_refuses_a_folder_or_an_option_of_several_lines(tmp_path, text):
+    for job in (batch(tmp_path / text), batch(tmp_path, options=(f"a = {text}",))):
+        with pytest.raises(UsageError, match="choose a name of one line"):
+            write("htcondor", job)
+
+
 def test_htcondor_refuses_a_folder_that_it_takes_for_a_macro(tmp_path):
     with pytest.raises(UsageError, match="another --out"):
         write("htcondor", batch(tmp_path / "$(film)"))

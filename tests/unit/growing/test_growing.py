@@ -313,3 +313,27 @@ def test_files_of_others_in_a_revision_stay(in_process, tmp_path):
         run.poll(2)
     assert kept.read_text() == "mine"
     assert [path.name for path in kept.parent.iterdir()] == ["notes.txt"]
+
+
+FORGED = {
+    "generation": ("1/../../x", 0, -1, True, 1.5),
+    "revision": ("../x", 0, None),
+    "seconds": ("0", float("nan"), float("inf")),
+    "time": ("", "2020-07-01", "9999-12-31T23:59:59-12:00", 7),
+    "source": (7, None),
+    "accepted": ("yesterday", 7),
+}
+
+
+@pytest.mark.parametrize(("name", "value"), [(name, value) for name in FORGED for value in FORGED[name]])
+def test_forged_times_are_refused(tmp_path, name, value):
+    """Their numbers become names of folders."""
+    entry = {
+        "generation": 1, "revision": 1, "time": "2020-07-01T20:00:00+00:00", "seconds": 0.0, "source": "a.nc",
+        "index": 0, "complete": "log", "sha256": "0", "accepted": "2026-07-01T20:00:00+00:00",
+    }  # fmt: skip
+    (tmp_path / watched.TIMES).write_text(json.dumps([entry]))
+    assert watched.newest(tmp_path) == tmp_path / "generation_1" / "000001"
+    (tmp_path / watched.TIMES).write_text(json.dumps([entry | {name: value}]))
+    with pytest.raises(InputError, match=r"times\.json: cannot be read"):
+        watched.newest(tmp_path)

@@ -1,0 +1,103 @@
+"""Readers of a user's files refuse pipes, devices and links to them in one line, and do not wait for them."""
+
+import os
+import resource
+import shutil
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+from file_readers import READERS, write_files
+from firetwin.dataset import finish, truth
+from firetwin.errors import Error
+from firetwin.growing import model_log, watched
+from firetwin.render import manifest
+from firetwin.run.models import grib2
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forks, and limits the memory")
+
+SECONDS = 6  # after which a reader counts as one that waits
+MEMORY = 1 << 30  # bytes that a reader may use in addition
+FILES = {
+    "GeoJSON": "a.geojson",
+    "KML": "a.kml",
+    "GeoPackage": "a.gpkg",
+    "shapefile": "a.shp",
+    "detections": "a.csv",
+    "station file": "a_stations.gpkg",
+    "import": "a_stations.gpkg",
+    "labels": "l.csv",
+    "track": "t.gpx",
+    "scene file": "s.toml",
+    "run folder": "run.toml",
+    "model": "a.npz",
+    "NumPy archive": "a.npz",
+    "netCDF file": "a.nc",
+    "raster": "a.asc",
+    "landscape (LCP)": "a_stations.gpkg",
+    "GeoTIFF": "a.tif",
+    "orthophoto": "a.png",
+    "world file": "a.pgw",
+    "globe": "a.png",
+    "hashed file": "a_stations.gpkg",
+    "tileset": "tileset.json",
+}
+"""File of each reader of `test_errors`."""
+MORE = {
+    "manifest": ("manifest.json", lambda path: manifest.read(path.parent)),
+    "metadata of a sample": ("meta/000001.json", lambda path: truth.read(path.parent.parent, 1)),
+    "samples": ("meta/000002.json", lambda path: finish.read_samples(path.parent.parent)),
+    "model's log": (model_log.NAME, lambda path: model_log.read(path.parent)),
+    "times of a watch": (watched.TIMES, lambda path: watched.times(path.parent)),
+    "state of a watch": (watched.STATUS, lambda path: watched.status(path.parent)),
+    "forecast": ("a.grib2", lambda path: grib2.read([path], {"MASSDEN"}, (), (0.0, 0.0, 1.0, 1.0))),
+}
+SILENT = {"model's log", "state of a watch"}
+"""Readers that take an odd file for a missing one."""
+ODD = {
+    "pipe": os.mkfifo,
+    "device": lambda path: path.symlink_to("/dev/zero"),
+    "loop": lambda path: path.symlink_to(path.name) if path.suffix != ".nc" else os.mkfifo(path),
+}
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    return write_files(tmp_path_factory.mktemp("files")).parent
+
+
+def in_child(work):
+    """Run a reader with little memory and time; return 0: it refused, 1: it read, 2: it failed."""
+    child = os.fork()
+    if child == 0:
+        status = 2
+        try:
+            signal.alarm(SECONDS)
+            size = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+            resource.setrlimit(resource.RLIMIT_AS, (size + MEMORY, size + MEMORY))
+            work()
+            status = 1
+        except Error as error:
+            status = 0 if "\n" not in str(error) else 3
+        finally:
+            os._exit(status)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+
+def test_every_reader_has_its_file():
+    assert READERS.keys() - FILES.keys() == {"model's folder", "model's field"}
+
+
+@pytest.mark.parametrize("kind", ODD)
+@pytest.mark.parametrize("reader", [*FILES, *MORE])
+def test_odd_files_are_refused_in_one_line(reader, kind, files, tmp_path):
+    folder = tmp_path / "files"
+    shutil.copytree(files, folder)
+    name, read = MORE[reader] if reader in MORE else (FILES[reader], READERS[reader][0])
+    path = folder / name
+    path.parent.mkdir(exist_ok=True)
+    path.unlink(missing_ok=True)
+    ODD[kind](path)
+    given = path if reader in MORE else folder / "a_stations.gpkg"
+    assert in_child(lambda: read(given)) == (1 if reader in SILENT else 0)
