@@ -19,6 +19,7 @@ from . import flame_phase, flame_state
 
 AHEAD = 2.2  # flame lengths ahead of the front over which flames lean
 _LONG_BEFORE, _LONG_AFTER = 1.0e4, 1.0e4  # s, ages beyond these are not looked at
+_SLOWER = 1.2  # factor on times, for places between nodes at which the front is slower than at both
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -50,7 +51,8 @@ class FlameWindow:
     @cached_property
     def cells(self) -> Mask:
         """Mask of the quads between nodes on which flames may be seen."""
-        soon, late = (self.came - self.lead) <= self.time, (self.came + self.lag) >= self.time
+        lead, lag = dilate(self.lead, 1), dilate(self.lag, 1)
+        soon, late = (self.came - lead) <= self.time, (self.came + lag) >= self.time
         soon, late = (each[1:, 1:] | each[1:, :-1] | each[:-1, 1:] | each[:-1, :-1] for each in (soon, late))
         return soon & late
 
@@ -85,15 +87,15 @@ class FlameWindow:
         came, lead, lag, pace = (
             bilinear(each, row, column) for each in (self.came, self.lead, self.lag, self.pace)
         )
-        out = came + lag + around * pace < self.time
-        return inside & ~out & (came - lead - around * pace <= self.time), inside & out
+        lead, lag = (_SLOWER * each + around * pace for each in (lead, lag))
+        out = came + lag < self.time
+        return inside & ~out & (came - lead <= self.time), inside & out
 
     def typical_length(self, row: Array, column: Array) -> Array:
-        """Return the mean flame length (m) at the nearest nodes to rows and columns; 0 outside."""
-        rows, columns = self.came.shape
-        i, j = np.rint(row - self.corner[0]).astype(int), np.rint(column - self.corner[1]).astype(int)
-        inside = (i >= 0) & (i < rows) & (j >= 0) & (j < columns)
-        return self.length[np.clip(i, 0, rows - 1), np.clip(j, 0, columns - 1)] * inside
+        """Return the mean flame length (m) at rows and columns."""
+        rows, columns = self.length.shape
+        row, column = row - self.corner[0], column - self.corner[1]
+        return bilinear(self.length, np.clip(row, 0.0, rows - 1.0), np.clip(column, 0.0, columns - 1.0))
 
 
 def find(shot: Any, time: float) -> FlameWindow | None:
@@ -112,11 +114,10 @@ def find(shot: Any, time: float) -> FlameWindow | None:
     longest = np.minimum(flame_state.TALLEST * even, flame_state.LONGEST)
     scale = flame_state.pattern_scale(shot)
     far = np.sqrt(2.0) * scale * sum(shift for _, shift in flame_state.RAGGED)
-    fields = np.zeros((4, *recent.shape))
-    fields[0][recent] = (AHEAD * longest + far) / speed
-    fields[1][recent] = flame_phase.last_age(speed, residence, longest) + (longest + far) / speed
-    fields[2][recent] = 1.0 / speed
-    fields[3][recent] = even
-    lead, lag, pace = (dilate(each, 1) for each in fields[:3])
-    window = FlameWindow((part[0].start, part[1].start), came[part], lead, lag, pace, fields[3], time)
+    lead, lag, pace, length = np.zeros((4, *recent.shape))
+    lead[recent] = (AHEAD * longest + far) / speed
+    lag[recent] = flame_phase.last_age(speed, residence, longest) + (longest + far) / speed
+    pace[recent] = 1.0 / speed
+    length[recent] = even
+    window = FlameWindow((part[0].start, part[1].start), came[part], lead, lag, pace, length, time)
     return window if window.cells.any() else None

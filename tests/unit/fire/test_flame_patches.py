@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from firetwin.shot.fire import flame_map, flame_nodes, flame_view, flame_window
 from firetwin.shot.fire.flame_nodes import DISTANCE, LENGTH, LOW, NORTH, SHARE, SIDE
-from straight_front import PACE, shot_of
+from straight_front import PACE, N, shot_of
 
 PIXEL, TIME = 0.002, 300.0
 FRONT = -230.0 + PACE * (TIME - 1.0)  # m east of the middle; cell centres begin 230 m west of it
@@ -68,9 +68,10 @@ def test_low_flames_hold_their_mean_height_in_coarse_cells(forest):
     assert coarse == pytest.approx(fine, rel=0.1)
 
 
-def test_the_front_is_where_the_distance_is_zero(shot):
-    nodes = grid(shot, 1.0)
-    east = np.arange(len(nodes)) - 0.5 * len(nodes)
+@pytest.mark.parametrize("spacing", [1.0, 8.0])
+def test_the_front_is_where_the_distance_is_zero(shot, spacing):
+    nodes = grid(shot, spacing)
+    east = spacing * (np.arange(len(nodes)) - 0.5 * len(nodes))
     away = nodes[..., DISTANCE].mean(axis=0)
     near = np.abs(east - FRONT) < 8.0
     assert away[near] == pytest.approx(FRONT - east[near], abs=1.5)
@@ -157,6 +158,18 @@ def test_cells_are_under_two_pixels_beyond_the_finest(shot):
     assert found.spacings.max() >= 1.0
 
 
+def test_near_cells_are_as_fine_as_flames_are_low(shot):
+    """Noise of fronts with tall flames needs no cells finer than 1 m."""
+    found = seen(shot, eye=(-60.0, 0.0, 3.0), limit=40.0)
+    window = flame_window.find(shot, TIME)
+    row, column = shot.ground.indices(
+        *shot.ground.geodetic(*(found.corners + SIDE * found.spacings[:, None] / 2.0).T)
+    )
+    length = window.typical_length(row, column)
+    assert (found.spacings <= np.maximum(0.25 * length, 0.25)).all()
+    assert (found.spacings > np.minimum(0.125 * length, 0.5)).all()
+
+
 def test_nothing_is_computed_where_nothing_burns(shot):
     assert not len(seen(shot, time=1.0e5).spacings)
     assert not len(seen(shot, eye=(50_000.0, 0.0, 3.0)).spacings)
@@ -176,10 +189,12 @@ def test_one_frame_is_as_in_a_film(shot):
 
 
 def test_flames_end_beyond_the_final_perimeter(forest):
-    """The run's burned cells end 240 m north of the middle."""
-    nodes = grid(forest, 1.0, half=256.0)
-    near = np.abs(nodes[..., DISTANCE]) < 2.0
+    """Their length falls to 0 within half of it, and they are not cut by a wall."""
+    forest.ground.burned[N // 2 + forest.ground.fields.margin :] = 0.0  # half-way between rows: in the middle
+    nodes = grid(forest, 1.0)
+    near = np.abs(nodes[..., DISTANCE]) < 3.0
     longest = np.where(near, nodes[..., LENGTH], 0.0).max(axis=1)
     north = np.arange(len(nodes)) - 0.5 * len(nodes)
-    assert longest[(north > 200.0) & (north < 230.0)].min() > 2.0
-    assert longest[north > 252.0].max(initial=0.0) == 0.0
+    assert longest[(north > -60.0) & (north < -10.0)].min() > 4.0
+    assert np.diff(longest[north > -6.0]).min() > -0.45 * longest[north > -6.0].max()
+    assert longest[north > 16.0].max(initial=0.0) == 0.0
