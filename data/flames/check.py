@@ -1,7 +1,8 @@
-"""Compare the blocks with measured flames: `python -m firetwin.data.flames.check [FOLDER] [--puffing]`.
+"""Compare the blocks with measured flames: `python -m firetwin.data.flames.check [FOLDER] [--solve]`.
 
-Prints a Markdown table. Heat, temperatures and lengths come from the blocks; `--puffing` solves a long,
-coarse flame for its frequency. Correlations are quoted from handbooks (SFPE) and FDS's validation scripts.
+Prints a Markdown table. Temperatures, tilts and peaks are the blocks'; `--solve` solves coarse flames for
+longer (minutes), for heat release, length and puffs. Formulas are quoted from handbooks (SFPE), McCaffrey's
+from FDS's validation scripts.
 """
 
 from __future__ import annotations
@@ -20,6 +21,8 @@ AIR = 1.2 * 1.005 * 293.0  # kJ/m3: density, specific heat and temperature of ai
 UNIT_HEAT = AIR * 9.81**0.5  # kW/m (lines) or kW (crowns) at heat 1 and L = 1 m
 CONVECTED = 0.7  # share of the heat release
 TEMPERATURE = 293.0  # K, of air
+_COARSE = 28  # cells to a unit of flames that are solved for heat and puffs
+_SLOW = 0.3  # sqrt(g / L), frequency under which patches of fuel change
 _GAP = 0.15  # L, length under which a place does not count as burning
 HEAT_OF_COMBUSTION = 18_000.0  # kJ/kg, of wood gas
 Row = tuple[str, str, float, float]
@@ -29,14 +32,21 @@ def main() -> None:
     """Run the command line."""
     parser = argparse.ArgumentParser(prog="python -m firetwin.data.flames.check", description=__doc__)
     parser.add_argument("folder", nargs="?", type=Path, default=FOLDER)
-    parser.add_argument("--puffing", action="store_true", help="solve for the frequency of puffs, a minute")
+    parser.add_argument(
+        "--solve", action="store_true", help="solve coarse flames too: heat, lengths and puffs"
+    )
     options = parser.parse_args()
-    print("| block | quantity | source | block | measured flames | difference |\n|---|---|---|--:|--:|--:|")
+    print("| flame | quantity | source | block | measured flames | difference |\n|---|---|---|--:|--:|--:|")
     for path in sorted(options.folder.glob("*_[0-9].npz")):
         for row in rows(path):
             print(format_row(path.stem, row))
-    if options.puffing:
-        print(format_row("calm", puffing()))
+    if options.solve:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            program = solve.compile_solver(folder)
+            for kind in solve.KINDS:
+                for row in coarse_rows(kind, program, folder):
+                    print(format_row(kind, row), flush=True)
 
 
 def format_row(name: str, row: Row) -> str:
@@ -57,18 +67,38 @@ def rows(path: Path) -> Iterator[Row]:
     crown = bool(block["crown"].any())
     tips = pack.find_tips(block["codes"], float(block["cell"]), base(block), crown)
     burning = float((tips.length > _GAP).mean())
-    heat = float(block["heat"].max()) * UNIT_HEAT / CONVECTED / burning
-    if crown:
-        length = 0.235 * heat**0.4 - 1.02 * 2.0 * float(block["crown"][2])
-        yield "length above the foliage's base, L", "Heskestad 1983", 1.0 - float(block["crown"][0]), length
-    else:
+    if not crown:
         yield "burning share of the line", "-", burning, 0.0
-        yield "length, L", "Thomas 1963", 1.0, 0.0266 * heat ** (2.0 / 3.0)
         yield "spacing of peaks, L", "Finney et al. 2013: in proportion to L", spacing(tips, block), 0.0
     if block["wind"]:
-        yield from tilts(tips, float(block["wind"]), heat)
+        tilt = float(np.degrees(np.arctan2(tips.median(tips.x), tips.median(tips.height))))
+        yield "tilt", "Albini 1981, tan A = 1.22 U / sqrt(gH)", tilt, albini(block, tips)
     else:
         yield from temperatures(block, burning)
+
+
+def coarse_rows(kind: str, program: Path, folder: Path) -> Iterator[Row]:
+    """Yield rows of a coarse flame of one kind that is solved for long, so that its means are steady."""
+    settings = solve.settings_of(kind, 1, _COARSE, 100) | {"interval": 0.2}
+    solved = solve.run(program, settings, folder)
+    length, crown = pack.flame_length(solved), kind == "crown"
+    tips = pack.find_tips(solved.codes, 1.0 / _COARSE, pack.base_of(settings), crown)
+    across = settings["ny"] / _COARSE if crown else 1.0 / float((tips.length > _GAP * length).mean())
+    heat = solved.heat * across / length ** (2.5 if crown else 1.5) * UNIT_HEAT / CONVECTED
+    if crown:
+        bottom, radius = settings["crown_base"] / length, settings["crown_radius"] / length
+        yield (
+            "length above the foliage's base, L",
+            "Heskestad 1983",
+            1.0 - bottom,
+            0.235 * heat**0.4 - 2.04 * radius,
+        )
+    else:
+        yield "length, L", "Thomas 1963", 1.0, 0.0266 * heat ** (2.0 / 3.0)
+    if "wind" in settings:
+        yield from tilts(tips, settings["wind"] / length**0.5, heat)
+    if kind == "calm":
+        yield puffing(solved, length)
 
 
 def base(block: dict[str, NDArray]) -> float:
@@ -76,24 +106,20 @@ def base(block: dict[str, NDArray]) -> float:
     return float(block["front"]) - 0.5 * float(block["depth"])
 
 
+def albini(block: dict[str, NDArray], tips: pack.Tips) -> float:
+    """Return Albini's (1981) tilt in degrees, with the height of the tip as that of the flame."""
+    return float(np.degrees(np.arctan(1.22 * float(block["wind"]) / tips.median(tips.height) ** 0.5)))
+
+
 def tilts(tips: pack.Tips, wind: float, heat: float) -> Iterator[Row]:
-    """Yield the tilt (degrees) of the median tip against three correlations."""
-    across, height = tips.median(tips.x), tips.median(tips.height)
-    tilt = float(np.degrees(np.arctan2(across, height)))
-    yield (
-        "tilt",
-        "Albini 1981, tan A = 1.22 U / sqrt(gH)",
-        tilt,
-        float(np.degrees(np.arctan(1.22 * wind / height**0.5))),
-    )
+    """Yield the tilt (degrees) of the median tip against two correlations for `heat` (kW/m at L = 1 m)."""
+    tilt = float(np.degrees(np.arctan2(tips.median(tips.x), tips.median(tips.height))))
     scaled = wind / (heat / HEAT_OF_COMBUSTION / 1.2 / 9.81**0.5) ** (1.0 / 3.0)
-    yield "tilt", "AGA 1973, cos A = u^(-1/2)", tilt, float(np.degrees(np.arccos(min(1.0, scaled**-0.5))))
-    yield (
-        "tilt",
-        "Thomas 1963, cos A = 0.7 u^(-0.49)",
-        tilt,
-        float(np.degrees(np.arccos(min(1.0, 0.7 * scaled**-0.49)))),
-    )
+    for source, cosine in (
+        ("AGA 1973, cos A = u^(-1/2)", scaled**-0.5),
+        ("Thomas 1963, cos A = 0.7 u^(-0.49)", 0.7 * scaled**-0.49),
+    ):
+        yield "tilt", source, tilt, float(np.degrees(np.arccos(min(1.0, cosine))))
 
 
 def temperatures(block: dict[str, NDArray], burning: float) -> Iterator[Row]:
@@ -133,20 +159,17 @@ def _count_peaks(line: NDArray[np.float64], prominence: float = 0.1) -> int:
     return count
 
 
-def puffing() -> Row:
-    """Return the main frequency (sqrt(g / L)) of the burning volume against 0.5 sqrt(g / D) (Pagni 1990)."""
-    settings = solve.settings_of("calm", 1, 24, 256) | {"interval": 0.1}
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        solved = solve.run(solve.compile_solver(folder), settings, folder)
-    length = pack.flame_length(solved)
-    # Each part of the line puffs by itself: the mean of the spectra of eight parts.
+def puffing(solved: pack.Solved, length: float) -> Row:
+    """Return the main frequency (sqrt(g / L)) of the burning volume against 0.5 sqrt(g / D) (Pagni 1990).
+
+    Each part of the line puffs by itself, so it is the peak of the mean spectrum of eight parts.
+    """
     burning = (pack.mixture(solved.codes) > 1.0).sum(axis=(1, 3))
     parts = burning.reshape(len(burning), 8, -1).sum(axis=2).astype(float)
     parts -= parts.mean(axis=0)
     power = (np.abs(np.fft.rfft(parts * np.hanning(len(parts))[:, None], axis=0)) ** 2).mean(axis=1)
-    frequency = np.fft.rfftfreq(len(parts), settings["interval"] / length**0.5)
-    steady = frequency > 0.2  # slower: the patches of fuel
+    frequency = np.fft.rfftfreq(len(parts), float(solved.settings["interval"]) / length**0.5)
+    steady = frequency > _SLOW
     peak = float(frequency[steady][np.convolve(power, np.ones(5) / 5, "same")[steady].argmax()])
     return "puffing, sqrt(g/L)", "0.5 sqrt(g/D)", peak, 0.5 / (solve.DEPTH / length) ** 0.5
 

@@ -31,13 +31,14 @@ class Solved:
     Attributes
     ----------
     codes : (frames, nz, ny, nx) uint8, mixture fraction 4 (code / 255)^2.
-    heat : (nz,) heat convected from below each level, per length of the line (y of the box for a crown).
+    heat : heat that leaves the box per length of the line (of y for a crown), over density, specific heat and
+        temperature of air.
     rise : (nz,) mean vertical speed of burning gas, 0 where none burns.
     divergence : largest error of the divergence times a cell.
     """
 
     codes: NDArray[np.uint8]
-    heat: NDArray[np.float32]
+    heat: float
     rise: NDArray[np.float32]
     divergence: float
     settings: dict[str, Any]
@@ -48,8 +49,7 @@ def read_solved(out: Path, settings: dict[str, Any]) -> Solved:
     nx, ny, nz = (int(settings[name]) for name in ("nx", "ny", "nz"))
     codes = np.fromfile(out, np.uint8).reshape(-1, nz, ny, nx)
     values = np.fromfile(out.with_name(out.name + ".profiles"), np.float32)
-    heat, rise, divergence = np.split(values, [nz, 2 * nz])
-    return Solved(codes, heat, rise, float(divergence[0]), settings)
+    return Solved(codes, float(values[0]), values[1:-1], float(values[-1]), settings)
 
 
 def mixture(codes: NDArray[np.uint8]) -> NDArray[np.float32]:
@@ -128,16 +128,13 @@ def save(path: Path, solved: Solved) -> float:
     """Write a block whose flame is 1 long, and return the flame length in the solver's units.
 
     Besides the fields of `firetwin.shot.fire.flame_library.FlameBlock` it has, for `check.py`: `depth` (L) of
-    the burning base; `excess` (nz,), the mean temperature excess over the air's on the axis; and
-    `heat` (nz,), the heat convected from below a level per length of the line, over density, specific heat
-    and temperature of air, in sqrt(g L^3) (lines) or, as a sum, sqrt(g L^5) (crowns).
+    the burning base, and `excess` (nz,), the mean temperature excess over the air's on the axis.
     """
     settings, length = solved.settings, flame_length(solved)
     cell, scale = 1.0 / (settings["cells"] * length), np.sqrt(length)
     faded = _fade_rims(_soften_dissolving(solved.codes), cell, settings["front"] / length)
     codes, first, levels = _crop(faded)
     crown = bool(settings.get("crown"))
-    across = settings["ny"] / settings["cells"] if crown else 1.0
     trunk = [settings[f"crown_{name}"] / length if crown else 0.0 for name in ("base", "top", "radius")]
     np.savez_compressed(
         path,
@@ -151,7 +148,6 @@ def save(path: Path, solved: Solved) -> float:
         crown=np.array(trunk),
         depth=np.float64(0.0 if crown else settings["depth"] / length),
         excess=mean_excess(solved)[:levels].astype(np.float32),
-        heat=(solved.heat * across / length ** (2.5 if crown else 1.5))[:levels].astype(np.float32),
     )
     return length
 

@@ -16,6 +16,7 @@ public:
   void advance(float duration);
 
   [[nodiscard]] const Grid& mixture() const { return mixture_; }
+  [[nodiscard]] const Grid& temperature() const { return temperature_; }
   [[nodiscard]] const Velocity& flow() const { return flow_; }
   [[nodiscard]] const Grid& expansion() const { return expansion_; }
   [[nodiscard]] float time() const { return time_; }

@@ -23,11 +23,31 @@ void write_floats(std::ofstream& file, const std::vector<double>& values, double
              static_cast<std::streamsize>(floats.size() * sizeof(float)));
 }
 
+/// Heat that leaves through the sides and the top: speed times T / (1 + T), summed over faces.
+double heat_outflow(const Flame& flame) {
+  const Grid& hot = flame.temperature();
+  const Velocity& flow = flame.flow();
+  const int end = hot.nx - 1, top = hot.nz - 1;
+  double sum = 0.0;
+  const auto add = [&](float speed, float excess) {
+    sum += static_cast<double>(speed * excess / (1.0F + excess));
+  };
+  for (int j = 0; j < hot.ny; ++j) {
+    for (int k = 0; k < hot.nz; ++k) {
+      add(flow.u(hot.nx, j, k), hot(end, j, k));
+      add(-flow.u(0, j, k), hot(0, j, k));
+    }
+    for (int i = 0; i < hot.nx; ++i) {
+      add(flow.w(i, j, hot.nz), hot(i, j, top));
+    }
+  }
+  return sum;
+}
+
 } // namespace
 
 Output::Output(const Settings& s) : path_(s.out), frames_(s.out, std::ios::binary), settings_(s) {
   const auto levels = static_cast<std::size_t>(s.nz);
-  heat_.resize(levels);
   rise_.resize(levels);
   hot_cells_.resize(levels);
 }
@@ -39,6 +59,7 @@ void Output::add(const Flame& flame) {
   frames_.write(reinterpret_cast<const char*>(codes_.data()),
                 static_cast<std::streamsize>(codes_.size()));
   add_profiles(flame);
+  heat_ += heat_outflow(flame);
   divergence_ = std::max(divergence_, divergence_error(flame.flow(), flame.expansion()));
   ++count_;
 }
@@ -46,7 +67,6 @@ void Output::add(const Flame& flame) {
 void Output::add_profiles(const Flame& flame) {
   for_each(flame.mixture(), [&](int i, int j, int k) {
     const auto level = static_cast<std::size_t>(k);
-    heat_[level] += static_cast<double>(flame.expansion()(i, j, k));
     if (flame.mixture()(i, j, k) > burning) {
       rise_[level] += static_cast<double>(flame.flow().w(i, j, k));
       hot_cells_[level] += 1.0;
@@ -59,9 +79,8 @@ void Output::close() {
   const double share = 1.0 / (static_cast<double>(count_) * settings_.ny);
   for (std::size_t k = 0; k < rise_.size(); ++k) {
     rise_[k] /= std::max(1.0, hot_cells_[k]);
-    heat_[k] += k > 0 ? heat_[k - 1] : 0.0;
   }
-  write_floats(file, heat_, share / settings_.cells);
+  write_floats(file, {heat_}, share / settings_.cells);
   write_floats(file, rise_, 1.0);
   write_floats(file, {divergence_}, 1.0);
   frames_.close();

@@ -14,10 +14,9 @@ public:
   explicit Output(const Settings& settings);
   void add(const Flame& flame);
 
-  /// Writes the profiles as float32: the gas that expands below the top of each level, per time and
-  /// length along y (nz), which is the convected heat over the air's density, specific heat and
-  /// temperature; the mean speed at which burning gas rises (nz); and the largest error of the
-  /// divergence times a cell.
+  /// Writes the profiles as float32: the heat that leaves the box over the air's density, specific
+  /// heat and temperature, per time and length along y; the mean speed at which burning gas rises
+  /// (nz); and the largest error of the divergence times a cell.
   void close();
 
 private:
@@ -27,8 +26,9 @@ private:
   std::ofstream frames_;
   int count_ = 0;
   std::vector<std::uint8_t> codes_;
-  std::vector<double> heat_, rise_, hot_cells_;
+  std::vector<double> rise_, hot_cells_;
   Settings settings_;
+  double heat_ = 0.0;
   float divergence_ = 0.0F;
 };
 

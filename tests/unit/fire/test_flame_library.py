@@ -28,7 +28,7 @@ def solved(height: float = 0.6) -> pack.Solved:
     inside = (z[:, None] < height) & (np.abs(x - 0.65) < 0.15)
     codes = np.broadcast_to(np.where(inside, 180, 0)[:, None], shape).astype(np.uint8)
     levels = np.linspace(0.5, 1.0, shape[1], dtype=np.float32)
-    return pack.Solved(codes, levels, levels, 0.0, SETTINGS)
+    return pack.Solved(codes, 0.1, levels, 0.0, SETTINGS)
 
 
 @pytest.fixture

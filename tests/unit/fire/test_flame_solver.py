@@ -31,14 +31,13 @@ def run(program, tmp_path_factory):
 def test_equal_settings_give_equal_bytes_and_another_seed_does_not(run):
     first, again, other = run(), run(), run(seed=2)
     assert (first.codes == again.codes).all()
-    assert (first.heat == again.heat).all()
+    assert (first.rise == again.rise).all()
     assert (first.codes != other.codes).any()
 
 
 @pytest.mark.parametrize("kind", ["calm", "wind", "crown"])
 def test_the_divergence_is_that_of_the_expanding_gas(run, kind):
     flame = run(kind)
-    assert flame.heat[-1] > 0
     assert flame.divergence < 1e-5  # rounding of float32; expansion is up to 0.4 per cell
 
 
@@ -52,7 +51,7 @@ def test_a_flame_leans_with_the_wind_and_rises_without(run):
 
 
 def test_more_fuel_gives_more_heat(run):
-    assert run(inflow=0.1).heat[-1] > 1.2 * run(inflow=0.05).heat[-1]
+    assert run(inflow=0.1, spin=4.0).heat > 1.2 * run(inflow=0.05, spin=4.0).heat > 0
 
 
 def test_an_unknown_setting_is_refused(program, tmp_path):
