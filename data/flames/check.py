@@ -1,7 +1,7 @@
 """Compare the blocks with measured flames: `python -m firetwin.data.flames.check [FOLDER] [--solve]`.
 
 Prints a Markdown table. Temperatures, tilts and peaks are the blocks'; `--solve` solves coarse flames for
-longer (minutes), for heat release, length and puffs. Formulas are quoted from handbooks (SFPE), McCaffrey's
+longer (minutes), for heat release and length. Formulas are quoted from handbooks (SFPE), McCaffrey's
 from FDS's validation scripts.
 """
 
@@ -21,8 +21,7 @@ AIR = 1.2 * 1.005 * 293.0  # kJ/m3: density, specific heat and temperature of ai
 UNIT_HEAT = AIR * 9.81**0.5  # kW/m (lines) or kW (crowns) at heat 1 and L = 1 m
 CONVECTED = 0.7  # share of the heat release
 TEMPERATURE = 293.0  # K, of air
-_COARSE = 28  # cells to a unit of flames that are solved for heat and puffs
-_SLOW = 0.3  # sqrt(g / L), frequency under which patches of fuel change
+_COARSE = 28  # cells to a unit of flames that are solved for heat
 _GAP = 0.15  # L, length under which a place does not count as burning
 HEAT_OF_COMBUSTION = 18_000.0  # kJ/kg, of wood gas
 Row = tuple[str, str, float, float]
@@ -32,9 +31,7 @@ def main() -> None:
     """Run the command line."""
     parser = argparse.ArgumentParser(prog="python -m firetwin.data.flames.check", description=__doc__)
     parser.add_argument("folder", nargs="?", type=Path, default=FOLDER)
-    parser.add_argument(
-        "--solve", action="store_true", help="solve coarse flames too: heat, lengths and puffs"
-    )
+    parser.add_argument("--solve", action="store_true", help="solve coarse flames too, for heat and length")
     options = parser.parse_args()
     print("| flame | quantity | source | block | measured flames | difference |\n|---|---|---|--:|--:|--:|")
     for path in sorted(options.folder.glob("*_[0-9].npz")):
@@ -75,6 +72,8 @@ def rows(path: Path) -> Iterator[Row]:
         yield "tilt", "Albini 1981, tan A = 1.22 U / sqrt(gH)", tilt, albini(block, tips)
     else:
         yield from temperatures(block, burning)
+    if not crown and not block["wind"]:
+        yield puffing(block)
 
 
 def coarse_rows(kind: str, program: Path, folder: Path) -> Iterator[Row]:
@@ -97,8 +96,6 @@ def coarse_rows(kind: str, program: Path, folder: Path) -> Iterator[Row]:
         yield "length, L", "Thomas 1963", 1.0, 0.0266 * heat ** (2.0 / 3.0)
     if "wind" in settings:
         yield from tilts(tips, settings["wind"] / length**0.5, heat)
-    if kind == "calm":
-        yield puffing(solved, length)
 
 
 def base(block: dict[str, NDArray]) -> float:
@@ -159,19 +156,21 @@ def _count_peaks(line: NDArray[np.float64], prominence: float = 0.1) -> int:
     return count
 
 
-def puffing(solved: pack.Solved, length: float) -> Row:
-    """Return the main frequency (sqrt(g / L)) of the burning volume against 0.5 sqrt(g / D) (Pagni 1990).
+def puffing(block: dict[str, NDArray]) -> Row:
+    """Return the frequency (sqrt(g / L)) of puffs against 0.5 sqrt(g / D) (Pagni 1990).
 
-    Each part of the line puffs by itself, so it is the peak of the mean spectrum of eight parts.
+    It is the peak of the mean spectrum, times the frequency, of the burning volume of pieces of 8 cells along
+    the line, without its trend. A loop of 2.7 sqrt(L / g) resolves frequencies to 0.4.
     """
-    burning = (pack.mixture(solved.codes) > 1.0).sum(axis=(1, 3))
-    parts = burning.reshape(len(burning), 8, -1).sum(axis=2).astype(float)
-    parts -= parts.mean(axis=0)
-    power = (np.abs(np.fft.rfft(parts * np.hanning(len(parts))[:, None], axis=0)) ** 2).mean(axis=1)
-    frequency = np.fft.rfftfreq(len(parts), float(solved.settings["interval"]) / length**0.5)
-    steady = frequency > _SLOW
-    peak = float(frequency[steady][np.convolve(power, np.ones(5) / 5, "same")[steady].argmax()])
-    return "puffing, sqrt(g/L)", "0.5 sqrt(g/D)", peak, 0.5 / (solve.DEPTH / length) ** 0.5
+    burning = (pack.mixture(block["codes"]) > 1.0).sum(axis=(1, 3))
+    count = len(burning)
+    pieces = burning.reshape(count, -1, 8).sum(axis=2).astype(float)
+    time = np.arange(count) - 0.5 * (count - 1)
+    pieces -= pieces.mean(axis=0) + np.outer(time, time @ pieces / (time @ time))
+    power = (np.abs(np.fft.rfft(pieces * np.hanning(count)[:, None], axis=0)) ** 2).mean(axis=1)
+    frequency = np.fft.rfftfreq(count, float(block["interval"]))
+    peak = float(frequency[(frequency * power).argmax()])
+    return "puffing, sqrt(g/L)", "Pagni 1990, 0.5 sqrt(g/D)", peak, 0.5 / float(block["depth"]) ** 0.5
 
 
 if __name__ == "__main__":
