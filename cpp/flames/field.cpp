@@ -1,31 +1,35 @@
 #include "flames/field.hpp"
 
 #include "base/clones.hpp"
+#include "base/constants.hpp"
+#include "base/noise.hpp"
+#include "base/smoothstep.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace firetwin::flames {
 namespace {
 
-constexpr double largest_eddy = 10.0;  // m, size of the largest eddies
-constexpr double octave_ratio = 2.07;  // of sizes of octaves
-constexpr float octave_weight = 0.56F; // octave_ratio of their strengths
-constexpr float fold_weight = 0.8F;    // and of the folds of bright sheets
-constexpr float octave_warp = 0.35F;   // displacement of an octave by the previous one, cells
-constexpr float first_band =
-    0.25F; // m, height of the first band; each is twice as high as the last
-constexpr float crown_eddies = 2.2F; // radii of a crown that correspond to a flame's length
-constexpr float reach = 4.0F;        // m by which eddies move flames up
-constexpr float folds = 1.0F;        // thinness of the bright sheets within flames
-constexpr float sheets = 0.97F;      // share of the soot in them
-constexpr float patches = 0.4F;      // strength of hotter and cooler patches
-constexpr float slow = 2.0F;         // m, height below which gas may be as slow as at the ground
-constexpr double octave_turn = 2.4;  // radians between the lattices of octaves
-constexpr double drawn_out = 1.3;    // height over width of eddies
-constexpr std::array<double, FlameField::sways> sway_sizes{7.5, 2.4, 0.8}; // m
-constexpr std::array<double, 2> fuel_sizes{2.6, 0.8};                      // m, gaps of fuel
+constexpr float shortest = 0.05F;    // m, length of flames that are drawn
+constexpr float wide_pixels = 1.5F;  // pixels that flames are long at least when they are drawn
+constexpr float segment_length = 3.0F; // flame lengths along the front
+constexpr float overlap = 0.8F;        // part of a segment from which the next one fades in
+constexpr std::array<float, 2> octave_blend{0.4F, 0.6F};  // octaves between rounded lengths
+constexpr std::array<float, 2> turned{0.8725F, 0.9625F};  // cosines of 29 and 16 degrees
+constexpr float row_spacing = 1.1F;    // of low flames, in their lengths
+constexpr float row_front = 0.25F;     // distance behind which a row burns, in lengths
+constexpr float row_length = 1.4F;     // scale of their eddies over their height
+constexpr float row_warp = 0.45F;      // displacement of rows, in lengths
+constexpr std::array<float, 2> warp_waves{0.7F, 1.7F}; // waves in a length
+constexpr float crown_blend = 0.02F;   // code over which a crown counts
+constexpr int directions = 4;
+constexpr float diagonal = std::numbers::sqrt2_v<float> / 2.0F;
+constexpr std::array<std::array<float, 2>, directions> axes{
+    {{1.0F, 0.0F}, {diagonal, diagonal}, {0.0F, 1.0F}, {-diagonal, diagonal}}};
+constexpr auto g = static_cast<float>(constants::gravity);
 
 __attribute__((always_inline)) inline void clamp_lanes(const Lanes& value, float low, float high,
                                                        Lanes& out) {
@@ -34,7 +38,6 @@ __attribute__((always_inline)) inline void clamp_lanes(const Lanes& value, float
   out = out > b ? b : out;
 }
 
-/// 0 at `low`, 1 at `high`, smooth between.
 __attribute__((always_inline)) inline void smooth_lanes(const Lanes& value, float low, float high,
                                                         Lanes& out) {
   clamp_lanes((value - low) * (1.0F / (high - low)), 0.0F, 1.0F, out);
@@ -48,324 +51,444 @@ __attribute__((always_inline)) inline void roots(const Lanes& value, Lanes& out)
 }
 
 float greatest(const Lanes& value) {
-  float found = value[0];
+  float out = value[0];
   for (std::size_t lane = 1; lane < lane_count; ++lane) {
-    found = std::max(found, value[lane]);
+    out = std::max(out, value[lane]);
   }
-  return found;
+  return out;
+}
+
+float least(const Lanes& value) {
+  return -greatest(-value);
+}
+
+/// Number, 0 to 1, of a hash.
+double unit(std::uint32_t hash) {
+  return static_cast<double>(hash >> 8U) * 0x1.0p-24;
+}
+
+/// Value noise, about -1 to 1, of wavelength 1.
+float wave(float x, float y, std::int64_t seed) {
+  const float i = std::floor(x), j = std::floor(y);
+  const auto rise = [&](int row, int column) {
+    const auto hash = lattice_hash(static_cast<std::int64_t>(i) + column,
+                                   static_cast<std::int64_t>(j) + row, seed);
+    return static_cast<float>(2.0 * unit(hash) - 1.0);
+  };
+  return gradient_noise(rise, y - j, x - i);
+}
+
+/// Adds a block's gas with a weight.
+void add_block(const FlameBlock& block, const BlockPlaces& places, float time, const BlockLevels& levels,
+               const Lanes& weight, GasLanes& out) {
+  const auto add = [&](int number, float share) {
+    if (share <= 0.0F) {
+      return;
+    }
+    if (number == 0) {
+      Lanes code;
+      block.codes(places, time, code);
+      out.code += weight * code;
+    } else {
+      CoarseFlame flame;
+      block.coarse(number, places, time, flame);
+      out.coarse.extinction += weight * flame.extinction * share;
+      out.coarse.hot += weight * flame.hot * share;
+    }
+  };
+  add(levels.number, 1.0F - levels.part);
+  add(levels.number + 1, levels.part);
+}
+
+float moment(const FlameBlock& block, double time, float length, double phase) {
+  const double period = block.period();
+  const double at = time / std::sqrt(static_cast<double>(length) / constants::gravity) + phase * period;
+  return static_cast<float>(at - period * std::floor(at / period));
 }
 
 } // namespace
 
-FlameField::FlameField(const FlameTiles& tiles, const FlameShape& shape, const Vector& origin,
-                       double time)
-    : tiles_(tiles), shape_(shape) {
-  double size = largest_eddy;
-  for (std::size_t n = 0; n < octaves; ++n, size /= octave_ratio) {
-    const auto seed = static_cast<std::uint32_t>(n);
-    detail_[n] =
-        make_octave(size, octave_turn * static_cast<double>(n), seed, origin, time, drawn_out);
-  }
-  for (std::size_t n = 0; n < 2 * sways; ++n) {
-    const auto seed = static_cast<std::uint32_t>(100 + n);
-    sway_[n] = make_octave(sway_sizes[n / 2], octave_turn * static_cast<double>(n), seed, origin,
-                           time, 2.0);
-  }
-  for (std::size_t n = 0; n < fuel_.size(); ++n) {
-    fuel_[n] = make_octave(fuel_sizes[n], octave_turn * static_cast<double>(n),
-                           static_cast<std::uint32_t>(200 + n), origin, 0.0, 1.0);
-  }
-}
+/// Where the gas at eight points rose from, and what burns there.
+struct FlameField::Foot {
+  Lanes x, y;           ///< m
+  NodeLanes node;
+  std::array<Lanes, 2> along; ///< unit vector along the front
+  std::vector<Lanes> shares;  ///< of the kinds of lines
+};
 
-float FlameField::rise_speed(double height) const {
-  return static_cast<float>(
-      std::sqrt(shape_.launch * shape_.launch + 2.0 * shape_.acceleration * height));
-}
+/// Flames along a line at eight points.
+struct FlameField::Line {
+  const Foot& foot;
+  const Lanes& across; ///< distance behind the front over the drawn length
+  const Lanes& height; ///< over the ground, in drawn lengths
+  BlockLevels levels;
+  std::size_t kind;
+  std::uint32_t salt;
+};
 
-FlameField::Octave FlameField::make_octave(double size, double angle, std::uint32_t seed,
-                                           const Vector& origin, double time,
-                                           double stretch) const {
-  Octave made{};
-  made.size = static_cast<float>(size);
-  const double cosine = std::cos(angle) / size, sine = std::sin(angle) / size;
-  made.cosine = static_cast<float>(cosine);
-  made.sine = static_cast<float>(sine);
-  const double east = origin[0] - shape_.wind[0] * time, north = origin[1] - shape_.wind[1] * time;
-  split_coordinate(cosine * east + sine * north, made.origin.cell[0], made.origin.part[0]);
-  split_coordinate(cosine * north - sine * east, made.origin.cell[1], made.origin.part[1]);
-  made.origin.cell[0] += seed * 0x9e3779b9U;
-  for (std::size_t band = 0; band < bands; ++band) {
-    const double height =
-        std::max(static_cast<double>(first_band) * static_cast<double>(1U << band), 0.4 * size);
-    const double rate = static_cast<double>(rise_speed(height)) / (size * stretch);
-    made.rate[band] = static_cast<float>(rate);
-    split_coordinate(-time * rate, made.cell[band], made.part[band]);
-    made.cell[band] += static_cast<std::uint32_t>(band) * 0x85ebca6bU;
-  }
-  return made;
-}
+/// Lengths at eight points that are rounded to one power of 2, and the weights of that.
+struct FlameField::Octave {
+  int number;
+  Lanes weight;
+};
 
-float FlameField::flight_to(float height) const {
-  const auto launch = static_cast<float>(shape_.launch),
-             lift = static_cast<float>(shape_.acceleration);
-  return (std::sqrt(launch * launch + 2.0F * lift * std::max(height, 0.0F)) - launch) / lift;
-}
-
-/// Replaces flames of the ground by flames of crowns that reach higher over these points.
-///
-/// Flames climb the trunk, surround the crown as wide as it is, and narrow to tongues above it,
-/// where they lean.
-void FlameField::add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& moved_x,
-                            const Lanes& moved_y, FlameShares& shares) const {
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    for (const std::uint32_t number : tiles_.spindles_at(x[lane], y[lane])) {
-      const Spindle& crown = tiles_.spindles()[number];
-      const float up = (z[lane] - crown.z) / crown.top;
-      if (up < -0.1F || up > FlameTiles::crown_top) {
-        continue;
+/// Powers of 2 near the lengths of eight points with their weights, which add up to those given.
+class FlameField::Octaves {
+public:
+  Octaves(const Lanes& length, const Lanes& weight) {
+    Lanes exact;
+    int first = 99, last = -99;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      exact[lane] = std::log2(std::max(length[lane], shortest));
+      if (weight[lane] > 0.0F) {
+        first = std::min(first, static_cast<int>(std::floor(exact[lane] + octave_blend[0])));
+        last = std::max(last, static_cast<int>(std::ceil(exact[lane] - octave_blend[0])));
       }
-      const float away =
-          FlameTiles::lean * flight_to(z[lane] - crown.z - FlameTiles::upright * crown.top);
-      const auto wind_x = static_cast<float>(shape_.wind[0]),
-                 wind_y = static_cast<float>(shape_.wind[1]);
-      const float dx = x[lane] - wind_x * away + moved_x[lane] - crown.x,
-                  dy = y[lane] - wind_y * away + moved_y[lane] - crown.y;
-      const float square = dx * dx + dy * dy, widest = FlameTiles::crown_wide * crown.radius;
-      if (square > widest * widest) {
-        continue;
-      }
-      const float branches = crown.base / crown.top;
-      const float climb = std::clamp(up / std::max(branches, 0.01F), 0.0F, 1.0F);
-      const float narrow = std::clamp((up - branches) / (1.0F - branches), 0.0F, 1.0F);
-      const float wide = crown.radius * (up < branches ? 0.45F + 0.65F * climb * climb
-                                                       : 1.15F - 0.5F * narrow * narrow);
-      const float round = square / (wide * wide), tip = std::max(up - 0.6F, 0.0F);
-      const float share = 0.9F * round + 0.25F * std::max(up, 0.0F) + 2.4F * tip * tip;
-      if (share < shares.share[lane]) {
-        shares.share[lane] = share;
-        shares.length[lane] = std::max(shares.length[lane], crown.top);
-        shares.eddy[lane] = crown_eddies * crown.radius;
-        shares.hollow[lane] = 0.3F + 0.7F * std::clamp(1.6F * round + 2.0F * tip, 0.0F, 1.0F);
+    }
+    for (int number = first; number <= last && count_ < octaves_.size(); ++number) {
+      Lanes away = exact - static_cast<float>(number), far;
+      away = away < 0.0F ? -away : away;
+      smooth_lanes(away, octave_blend[0], octave_blend[1], far);
+      const Lanes near = weight * (1.0F - far);
+      if (greatest(near) > 0.0F) {
+        octaves_[count_++] = {number, near};
       }
     }
   }
-}
+  const Octave* begin() const { return octaves_.data(); }
+  const Octave* end() const { return octaves_.data() + count_; }
+
+private:
+  std::array<Octave, 12> octaves_;
+  std::size_t count_ = 0;
+};
+
+/// Eight points in one segment along a front.
+struct FlameField::Segment {
+  const Line& line;
+  int octave, direction;
+  std::int64_t number;
+  const Lanes& along;  ///< place in the segment, in rounded lengths
+  const Lanes& weight;
+};
+
+FlameField::FlameField(const FlameTiles& tiles, const FlameCrowns& crowns,
+                       const FlameLibrary& library, const FlameShape& shape, const Vector& origin,
+                       double time)
+    : tiles_(tiles), crowns_(crowns), library_(library), shape_(shape), origin_(origin),
+      time_(time) {}
 
 float FlameField::free_distance(const std::array<float, 3>& place,
                                 const std::array<float, 3>& direction) const {
+  constexpr float slow = 2.0F; // m, height below which gas may be as slow as at the ground
   const auto [x, y, z] = place;
   const float across = std::hypot(direction[0], direction[1]), along = std::abs(direction[2]);
-  const auto wind_x = static_cast<float>(shape_.wind[0]),
-             wind_y = static_cast<float>(shape_.wind[1]);
+  const auto wind_x = lean * static_cast<float>(shape_.wind[0]),
+             wind_y = lean * static_cast<float>(shape_.wind[1]);
+  const float height = std::clamp(z - tiles_.ground_at(x, y), 0.0F, 1.0e6F);
   const auto launch = static_cast<float>(shape_.launch),
              lift = static_cast<float>(shape_.acceleration);
-  const float ground = tiles_.ground_at(x, y);
-  const float height = std::clamp(z - ground, 0.0F, 1.0e6F);
-  // The foot moves no faster than this within half the height.
-  const float least = height > slow ? std::sqrt(launch * launch + lift * height) : launch;
-  const float speed = across + std::hypot(wind_x, wind_y) / least * (along + 0.5F * across);
-  const float away = flight_to(height);
-  const auto [longest, edge] = tiles_.rooted(x - wind_x * away, y - wind_y * away);
-  float free = edge / std::max(speed, 0.01F);
-  if (longest > 0.0F) {
-    const float over = height - FlameTiles::soot_top * longest - std::min(reach, 0.5F * longest);
-    free =
-        over > 0.0F ? std::min(free, 0.5F * over / std::max(along + 0.5F * across, 0.01F)) : 0.0F;
-  } else if (height > slow) {
-    free = std::min(free, 0.5F * height / std::max(along + 0.5F * across, 0.01F));
+  // The foot moves no faster than this within half the height, and leans anything from nothing to
+  // all of the wind.
+  const float speed_up = height > slow ? std::sqrt(launch * launch + lift * height) : launch;
+  const float wind = std::hypot(wind_x, wind_y);
+  const float speed = across + wind / speed_up * (along + 0.5F * across);
+  const float away = shape_.flight_to(height);
+  float longest = 0.0F, edge = std::numeric_limits<float>::max();
+  constexpr int parts = 2; // places between the foot of upright and of leaning flames
+  for (int n = 0; n <= parts; ++n) {
+    const float part = away * static_cast<float>(n) / static_cast<float>(parts);
+    const auto roots = tiles_.rooted(x - wind_x * part, y - wind_y * part);
+    longest = std::max(longest, roots.longest);
+    edge = std::min(edge, roots.edge);
+    if (wind * away < 0.1F) {
+      break;
+    }
   }
-  return free > 0.0F ? std::min(free, tiles_.spindle_distance(x, y, z, across)) : 0.0F;
+  float free = edge / std::max(speed, 0.01F);
+  const float climb = std::max(along + 0.5F * across, 0.01F);
+  if (longest > 0.0F) {
+    const float over = height - library_.top() * longest;
+    free = over > 0.0F ? std::min(free, 0.5F * over / climb) : 0.0F;
+  } else if (height > slow) {
+    free = std::min(free, 0.5F * height / climb);
+  }
+  return free > 0.0F ? std::min(free, crowns_.free_distance(x, y, z, across)) : 0.0F;
 }
 
 FIRETWIN_CLONES("avx2")
-void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float fine,
+void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float size,
                           FlameSamples& out) const {
-  const auto launch = static_cast<float>(shape_.launch),
-             lift = static_cast<float>(shape_.acceleration);
+  out = {};
+  NodeLanes node;
+  tiles_.nodes(x, y, node);
+  Lanes height = z - node[ground_channel];
+  const auto buried = height < -below_ground || height > 1.0e6F;
+  height = height < 0.0F ? Lanes{} : height;
+  height = buried ? Lanes{} + 1.0e6F : height;
+  Foot foot;
+  find_foot(x, y, height, node, foot);
+  add_front(foot, height, size, out.gas[0]);
+  add_low(foot, height, size, out.gas[1]);
+  if (!crowns_.empty()) {
+    add_crowns(x, y, z, size, out.gas[2]);
+  }
+}
+
+/// Finds the foot by the wind that the block of a place does not hold.
+FIRETWIN_CLONES("avx2")
+void FlameField::find_foot(const Lanes& x, const Lanes& y, const Lanes& height,
+                           const NodeLanes& node, Foot& out) const {
   const auto wind_x = static_cast<float>(shape_.wind[0]),
              wind_y = static_cast<float>(shape_.wind[1]);
-  Lanes ground;
-  tiles_.ground(x, y, ground);
-  Lanes height = z - ground;
-  const auto buried = height < -below_ground;
-  height = height > 1.0e6F ? Lanes{} + 1.0e6F : height;
-  height = height < 0.0F ? Lanes{} : height;
-  Lanes speed, flight;
-  roots(launch * launch + 2.0F * lift * height, speed);
-  flight = (speed - launch) * (1.0F / lift);
-  Lanes foot_x = x - wind_x * flight, foot_y = y - wind_y * flight;
-
-  // Eddies: displacement by the curl of noise, so that edges roll up.
-  const auto noise_at = [&](const Octave& octave, const Lanes& px, const Lanes& py,
-                            const Lanes& upward, const LaneHash& cell, Lanes& value,
-                            Lanes* slope) __attribute__((always_inline)) {
-    lattice_noise(octave.cosine * px + octave.sine * py + octave.origin.part[0],
-                  octave.cosine * py - octave.sine * px + octave.origin.part[1], upward, cell,
-                  octave.origin.cell[0], octave.origin.cell[1], value, slope);
-  };
-  Lanes risen = height, moved_x{}, moved_y{};
-  for (std::size_t n = 0; n < sways; ++n) {
-    const float size = sway_[2 * n].size;
-    if (size < 2.0F * fine) {
-      break;
+  const auto launch = static_cast<float>(shape_.launch),
+             lift = static_cast<float>(shape_.acceleration);
+  const Lanes east = node[east_channel], north = node[north_channel];
+  Lanes across = wind_x * east + wind_y * north, speed, flight;
+  across = across < 0.0F ? Lanes{} : across;
+  Lanes length = node[length_channel];
+  length = length < shortest ? Lanes{} + shortest : length;
+  roots(g * length, speed);
+  const Lanes froude = across / speed;
+  const auto lines = library_.lines();
+  out.shares.assign(lines.size(), Lanes{});
+  out.shares[0] += 1.0F;
+  Lanes held{};
+  for (std::size_t kind = 0; kind + 1 < lines.size(); ++kind) {
+    const float low = lines[kind].front()->scale().wind,
+                high = lines[kind + 1].front()->scale().wind;
+    Lanes part;
+    smooth_lanes((froude - low) * (1.0F / (high - low)), FlameLibrary::change[0],
+                 FlameLibrary::change[1], part);
+    out.shares[kind + 1] = out.shares[kind] * part;
+    out.shares[kind] -= out.shares[kind + 1];
+    held += out.shares[kind] * low;
+    if (kind + 2 == lines.size()) {
+      held += out.shares[kind + 1] * high;
     }
-    Lanes strength;
-    clamp_lanes(height * (1.2F / size), 0.06F, 1.0F, strength);
-    strength *= shape_.roll * size;
-    std::array<std::array<Lanes, 3>, 2> slope;
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Octave& octave = sway_[2 * n + k];
-      Lanes value, turned[3];
-      noise_at(octave, x + moved_x, y + moved_y, flight * octave.rate[0] + octave.part[0],
-               LaneHash{} + octave.cell[0], value, turned);
-      slope[k][0] = (octave.cosine * turned[0] - octave.sine * turned[1]) * size;
-      slope[k][1] = (octave.sine * turned[0] + octave.cosine * turned[1]) * size;
-      slope[k][2] = turned[2];
-    }
-    moved_x -= strength * slope[0][2];
-    moved_y -= strength * slope[1][2];
-    risen += strength * (slope[0][0] + slope[1][1]);
   }
-  foot_x += moved_x;
-  foot_y += moved_y;
-  risen = risen < 0.0F ? Lanes{} : risen;
-  roots(launch * launch + 2.0F * lift * risen, speed);
-  flight = (speed - launch) * (1.0F / lift);
+  held *= speed;
+  held = held > across ? across : held;
+  const Lanes tall = height > 1.0e4F ? Lanes{} : height;
+  roots(launch * launch + 2.0F * lift * tall, flight);
+  flight = (flight - launch) * (lean / lift);
+  out.x = x - (wind_x - held * east) * flight;
+  out.y = y - (wind_y - held * north) * flight;
+  tiles_.nodes(out.x, out.y, out.node);
+  Lanes norm;
+  roots(east * east + north * north + 1.0e-12F, norm);
+  out.along = {-north / norm, east / norm};
+}
 
-  FlameShares shares;
-  auto& [share, length, eddy, hollow] = shares;
-  tiles_.length(foot_x, foot_y, length);
-  share = length > 0.05F ? risen / length : Lanes{} + 9.0F;
-  eddy = length;
-  hollow = Lanes{} + 1.0F;
-  if (!tiles_.spindles().empty()) {
-    add_crowns(x, y, z, moved_x, moved_y, shares);
-  }
-  share = buried ? Lanes{} + 9.0F : share;
-  out.length = length;
-  bool any = false;
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    any = any || share[lane] < FlameTiles::soot_top;
-  }
-  if (!any) {
-    out.flame = out.heat = out.soot = Lanes{};
+FIRETWIN_CLONES("avx2")
+void FlameField::add_front(const Foot& foot, const Lanes& height, float size,
+                           GasLanes& out) const {
+  const Lanes length = foot.node[length_channel];
+  Lanes drawn = length;
+  drawn = drawn < wide_pixels * size ? Lanes{} + wide_pixels * size : drawn;
+  const Lanes away = foot.node[distance_channel] / drawn, up = height / drawn;
+  const Lanes seen = (length > shortest && up < library_.top() && away < library_.behind() &&
+                      away > -library_.ahead())
+                         ? Lanes{} + 1.0F
+                         : Lanes{};
+  if (greatest(seen) <= 0.0F) {
     return;
   }
-
-  // Bands of height, so that detail keeps its proportions as the gas speeds up.
-  // The exponent of a height and the rest of its bits are near its logarithm to base 2.
-  Lanes relative;
-  clamp_lanes(risen * (1.0F / first_band), 1.0F, static_cast<float>(1U << (bands - 2)), relative);
-  const LaneIndex bits = (LaneIndex)relative;
-  const LaneIndex band = (bits >> 23) - 127;
-  const Lanes rest = __builtin_convertvector(bits & 0x7fffff, Lanes) * (1.0F / 8388608.0F);
-  std::array<Lanes, 2> part;
-  Lanes norm;
-  roots(rest * rest + (1.0F - rest) * (1.0F - rest), norm);
-  part[0] = (1.0F - rest) / norm;
-  part[1] = rest / norm;
-  bool even = true;
-  for (std::size_t lane = 1; lane < lane_count; ++lane) {
-    even = even && band[lane] == band[0];
+  out.length = length;
+  out.drawn = drawn;
+  out.height = up;
+  out.share = foot.node[share_channel];
+  const float cell = library_.lines()[0].front()->scale().cell;
+  const BlockLevels levels(size, cell * greatest(drawn * seen));
+  out.fine += levels.fine();
+  for (std::size_t kind = 0; kind < foot.shares.size(); ++kind) {
+    const Lanes burning = seen * foot.shares[kind];
+    const Line line{foot, away, up, levels, kind, 0};
+    for (const Octave& octave : Octaves(drawn, burning)) {
+      add_line(line, octave, out);
+    }
   }
-  const float tallest = greatest(eddy), smallest = std::max(fine, 0.008F * tallest);
-  Lanes sum{}, patch{}, total = Lanes{} + 1.0e-6F, last{}, grain{}, grains = Lanes{} + 1.0e-6F;
-  float amplitude = 1.0F;
-  float folds_weight = 1.0F; // finer folds are nearly as strong
-  for (std::size_t n = 0; n < octaves;
-       ++n, amplitude *= octave_weight, folds_weight *= fold_weight) {
-    const Octave& octave = detail_[n];
-    if (octave.size > 1.3F * tallest) {
+}
+
+/// Rows of low flames, which bend with noise.
+FIRETWIN_CLONES("avx2")
+void FlameField::add_low(const Foot& foot, const Lanes& height, float size, GasLanes& out) const {
+  const Lanes length = foot.node[low_channel];
+  Lanes drawn = length;
+  drawn = drawn < wide_pixels * size ? Lanes{} + wide_pixels * size : drawn;
+  const Lanes up = height / drawn;
+  const FlameBlock& block = *library_.lines()[0].front();
+  const Lanes seen =
+      (length > shortest && up < block.top()) ? Lanes{} + 1.0F : Lanes{};
+  if (greatest(seen) <= 0.0F) {
+    return;
+  }
+  out.length = length;
+  out.drawn = drawn;
+  out.height = up;
+  out.share = Lanes{} + 1.0F;
+  const BlockLevels levels(size, block.scale().cell * greatest(drawn * seen));
+  out.fine += levels.fine();
+  for (const Octave& octave : Octaves(row_length * drawn, seen)) {
+    add_rows(foot, octave, up, levels, out);
+  }
+}
+
+/// Adds the rows of one rounded length.
+FIRETWIN_CLONES("avx2")
+void FlameField::add_rows(const Foot& foot, const Octave& octave, const Lanes& height,
+                          const BlockLevels& levels, GasLanes& out) const {
+  const auto scale = std::exp2(static_cast<float>(octave.number));
+  Lanes place;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const auto at = [&](std::size_t axis, const Lanes& of) {
+      return static_cast<float>((static_cast<double>(of[lane]) + origin_[axis]) /
+                                static_cast<double>(scale));
+    };
+    const float east = at(0, foot.x), north = at(1, foot.y);
+    const float bend = wave(warp_waves[0] * east, warp_waves[0] * north, 3) +
+                       0.5F * wave(warp_waves[1] * east, warp_waves[1] * north, 4);
+    place[lane] = (foot.node[distance_channel][lane] / scale + row_warp * bend) / row_spacing;
+  }
+  const BlockScale& block = library_.lines()[0].front()->scale();
+  const float behind = block.front, ahead = library_.lines()[0].front()->across() - block.front;
+  const Lanes low = octave.weight > 0.0F ? place : Lanes{} + 1.0e6F,
+              high = octave.weight > 0.0F ? place : Lanes{} - 1.0e6F;
+  const auto first = static_cast<std::int64_t>(std::floor(least(low)));
+  const auto last = static_cast<std::int64_t>(std::floor(greatest(high))) + 1;
+  for (std::int64_t row = first; row <= last; ++row) {
+    const Lanes away = (place - static_cast<float>(row)) * row_spacing - row_front;
+    const Lanes burning = (away < behind && away > -ahead) ? octave.weight : Lanes{};
+    if (greatest(burning) > 0.0F) {
+      const Line line{foot, away, height, levels, 0, static_cast<std::uint32_t>(row) * 7U + 11U};
+      add_line(line, {octave.number, burning}, out);
+    }
+  }
+}
+
+/// Adds flames along a line, in the directions that are nearest to the front's.
+FIRETWIN_CLONES("avx2")
+void FlameField::add_line(const Line& line, const Octave& octave, GasLanes& out) const {
+  out.any = true;
+  std::array<Lanes, directions> turns;
+  Lanes total = Lanes{} + 1.0e-6F;
+  for (std::size_t n = 0; n < directions; ++n) {
+    Lanes cosine = line.foot.along[0] * axes[n][0] + line.foot.along[1] * axes[n][1];
+    cosine = cosine < 0.0F ? -cosine : cosine;
+    smooth_lanes(cosine, turned[0], turned[1], turns[n]);
+    total += turns[n];
+  }
+  for (int direction = 0; direction < directions; ++direction) {
+    const Lanes weight = octave.weight * turns[static_cast<std::size_t>(direction)] / total;
+    if (greatest(weight) > 0.0F) {
+      add_segments(line, octave.number, direction, weight, out);
+    }
+  }
+}
+
+FIRETWIN_CLONES("avx2")
+void FlameField::add_segments(const Line& line, int octave, int direction, const Lanes& weight,
+                              GasLanes& out) const {
+  const double scale = static_cast<double>(segment_length) * std::exp2(octave);
+  const auto [east, north] = axes[static_cast<std::size_t>(direction)];
+  const double start = (static_cast<double>(east) * origin_[0] + static_cast<double>(north) * origin_[1]) / scale;
+  const auto inverse = static_cast<float>(1.0 / scale);
+  const Lanes place = (line.foot.x * east + line.foot.y * north) * inverse +
+                      static_cast<float>(start - std::floor(start));
+  const Lanes low = weight > 0.0F ? place : Lanes{} + 1.0e9F,
+              high = weight > 0.0F ? place : Lanes{} - 1.0e9F;
+  const auto first = static_cast<std::int64_t>(std::floor(least(low)));
+  const auto last = static_cast<std::int64_t>(std::floor(greatest(high) + 1.0F - overlap));
+  for (std::int64_t number = first; number <= last; ++number) {
+    // 0 to 1 within the segment; it fades in over the end of the one before.
+    const Lanes at = place - static_cast<float>(number);
+    Lanes in, gone;
+    smooth_lanes(at, overlap - 1.0F, 0.0F, in);
+    smooth_lanes(at, overlap, 1.0F, gone);
+    const Lanes part = weight * in * (1.0F - gone);
+    if (greatest(part) > 0.0F) {
+      add_segment({line, octave, direction,
+                   number + static_cast<std::int64_t>(std::floor(start)), at * segment_length,
+                   part},
+                  out);
+    }
+  }
+}
+
+void FlameField::add_segment(const Segment& segment, GasLanes& out) const {
+  const Line& line = segment.line;
+  const auto salt = line.salt * 64U + static_cast<std::uint32_t>(segment.direction) * 16U +
+                    static_cast<std::uint32_t>(line.kind);
+  const std::uint32_t hash = lattice_hash(segment.number, segment.octave, salt);
+  const auto& kind = library_.lines()[line.kind];
+  const FlameBlock& block = *kind[hash % kind.size()];
+  const auto offset = static_cast<float>(unit(murmur_finalizer(hash + 1U))) * block.along();
+  const bool mirrored = (hash & 64U) != 0;
+  const BlockPlaces places{block.scale().front - line.across,
+                           offset + (mirrored ? -segment.along : segment.along), line.height};
+  const auto length = std::exp2(static_cast<float>(segment.octave));
+  const float time = moment(block, time_, length, unit(murmur_finalizer(hash + 2U)));
+  add_block(block, places, time, line.levels, segment.weight, out);
+}
+
+/// Adds crowns; where they overlap, the one with more gas counts.
+FIRETWIN_CLONES("avx2")
+void FlameField::add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, float size,
+                            GasLanes& out) const {
+  std::array<std::uint32_t, 64> numbers;
+  std::size_t count = 0;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    for (const std::uint32_t number : crowns_.at(x[lane], y[lane])) {
+      const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(count);
+      if (std::find(numbers.begin(), end, number) == end && count < numbers.size()) {
+        numbers[count++] = number;
+      }
+    }
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    const Spindle& crown = crowns_.all()[numbers[n]];
+    const std::uint32_t hash = crowns_.hash(numbers[n]);
+    const FlameBlock& block = *library_.crowns()[hash % library_.crowns().size()];
+    const Lanes rise = z - crown.z, up = rise / crown.top;
+    if (least(up) > block.top() || greatest(up) < 0.0F) {
       continue;
     }
-    if (octave.size < smallest) {
-      break;
+    Lanes away;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      away[lane] = FlameCrowns::lean * shape_.flight_to(rise[lane] - FlameCrowns::upright * crown.top);
     }
-    Lanes weight; // eddies are smaller than the flame
-    clamp_lanes(1.6F - octave.size / (eddy + 1.0e-6F) * 1.6F, 0.0F, 1.0F, weight);
-    weight *= amplitude;
-    Lanes found{};
-    for (std::size_t k = 0; k < 2; ++k) {
-      Lanes rate, present;
-      LaneHash cell;
-      if (even) {
-        const auto number = static_cast<std::size_t>(band[0]) + k;
-        rate = Lanes{} + octave.rate[number];
-        present = Lanes{} + octave.part[number];
-        cell = LaneHash{} + octave.cell[number];
-      } else {
-        for (std::size_t lane = 0; lane < lane_count; ++lane) {
-          const auto number = static_cast<std::size_t>(band[lane]) + k;
-          rate[lane] = octave.rate[number];
-          present[lane] = octave.part[number];
-          cell[lane] = octave.cell[number];
-        }
+    const float wide = 1.0F / FlameCrowns::size(crown);
+    const Lanes dx = (x - crown.x - static_cast<float>(shape_.wind[0]) * away) * wide,
+                dy = (y - crown.y - static_cast<float>(shape_.wind[1]) * away) * wide;
+    const auto turn = static_cast<float>(2.0 * std::numbers::pi * unit(murmur_finalizer(hash + 1U)));
+    const float cosine = std::cos(turn), sine = std::sin(turn);
+    const BlockPlaces places{block.scale().front + dx * cosine + dy * sine,
+                             0.5F * block.along() + dy * cosine - dx * sine, up};
+    const BlockLevels levels(size, block.scale().cell * crown.top);
+    const float octave = std::log2(crown.top), low = std::floor(octave);
+    const float part = smoothstep(octave_blend[0], octave_blend[1], octave - low);
+    GasLanes own;
+    for (int next = 0; next < 2; ++next) {
+      const float weight = next == 0 ? 1.0F - part : part;
+      if (weight > 0.0F) {
+        const float length = std::exp2(low + static_cast<float>(next));
+        const float time = moment(block, time_, length, unit(murmur_finalizer(hash + 2U)));
+        add_block(block, places, time, levels, Lanes{} + weight, own);
       }
-      Lanes value;
-      noise_at(octave, x + moved_x + (octave_warp * octave.size) * last,
-               y + moved_y + (octave_warp * octave.size) * last, flight * rate + present, cell,
-               value, nullptr);
-      found += part[k] * value;
     }
-    last = found;
-    sum += weight * found;
-    total += weight;
-    patch += (n % 2 == 0 ? -1.0F : 1.0F) * weight * found; // independent of the sum
-    Lanes small;
-    clamp_lanes(1.5F - octave.size / (eddy + 1.0e-6F) * 3.0F, 0.0F, 1.0F, small);
-    grain += small * folds_weight * found;
-    grains += small * small * (folds_weight * folds_weight);
-  }
-  const Lanes noise = sum / total * 1.7F;
-
-  Lanes gaps{};
-  if (shape_.broken > 0.0F) {
-    for (const Octave& octave : fuel_) {
-      Lanes value;
-      noise_at(octave, foot_x, foot_y, Lanes{}, LaneHash{} + octave.cell[0], value, nullptr);
-      gaps += value;
-    }
-  }
-  Lanes rooted, full, top, base, cool;
-  clamp_lanes(1.0F - share * 2.5F, 0.0F, 1.0F, rooted);
-  clamp_lanes(share * 1.6F, 0.0F, 1.0F, full);
-  clamp_lanes(share, 0.0F, 1.4F, cool);
-  Lanes value = shape_.fill - shape_.taper * share * (0.45F + 0.5F * share) +
-                shape_.ragged * noise * (0.45F + 0.55F * full) + shape_.broken * gaps * rooted;
-  smooth_lanes(length, 0.5F, 0.0F, base);
-  value -= 0.5F * base;
-  smooth_lanes(value, 0.0F, shape_.edge, out.flame);
-  smooth_lanes(share, 1.5F, 1.0F, top);
-  // Soot glows in thin folded sheets, with dark gas between them.
-  Lanes sheet, core;
-  roots(grains, sheet);
-  sheet = grain / sheet;
-  sheet = sheet < 0.0F ? -sheet : sheet;
-  clamp_lanes(1.0F - sheet * folds, 0.0F, 1.0F, sheet);
-  sheet *= sheet;
-  // Folds that are too small to be drawn: mean extinction, and light of the hottest and of all
-  // heights.
-  const Lanes bright = grains > 0.01F ? sheet : Lanes{} + 1.1F;
-  sheet = grains > 0.01F ? sheet : Lanes{} + 0.4F;
-  clamp_lanes(value, 0.0F, 1.2F, core);
-  // Hot where fuel gas burns, at the foot and in patches; cool where soot has radiated its heat.
-  patch *= 1.7F / total;
-  out.flame *= top * hollow * (1.0F - sheets + 1.4F * sheets * sheet) * (1.0F - 0.1F * cool);
-  clamp_lanes((0.05F + 0.5F * core) * (0.25F + bright) * (1.0F - 0.4F * cool) *
-                      (1.0F + 0.35F * gaps * rooted) +
-                  patches * patch + 0.15F * rooted,
-              0.0F, 1.0F, out.heat);
-  out.heat = grains > 0.01F ? out.heat : 0.5F + 0.25F * (out.heat - 0.5F);
-  Lanes begin, end, thick;
-  smooth_lanes(share, 0.55F, 1.3F, begin);
-  smooth_lanes(share, FlameTiles::soot_top, 1.4F, end);
-  smooth_lanes(value + patches * patch, -0.5F, -0.05F, thick);
-  clamp_lanes(1.0F - out.flame, 0.0F, 1.0F, out.soot);
-  out.soot *= begin * end * thick;
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    if (!(share[lane] < FlameTiles::soot_top)) {
-      out.flame[lane] = out.heat[lane] = out.soot[lane] = 0.0F;
-    }
+    const Lanes fine = Lanes{} + levels.fine();
+    const Lanes mine = own.code * fine + own.coarse.extinction,
+                best = out.code * out.fine + out.coarse.extinction;
+    const auto more = up >= 0.0F && mine > crown_blend && mine > best;
+    out.code = more ? own.code : out.code;
+    out.fine = more ? fine : out.fine;
+    out.coarse.extinction = more ? own.coarse.extinction : out.coarse.extinction;
+    out.coarse.hot = more ? own.coarse.hot : out.coarse.hot;
+    out.height = more ? up : out.height;
+    out.length = more ? Lanes{} + crown.top : out.length;
+    out.drawn = out.length;
+    out.share = Lanes{} + 1.0F;
+    out.any = out.any || greatest(mine) > crown_blend;
   }
 }
 

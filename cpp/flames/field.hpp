@@ -1,62 +1,56 @@
 #pragma once
 
 #include "base/vector.hpp"
-#include "flames/lattice_noise.hpp"
+#include "flames/crowns.hpp"
+#include "flames/library.hpp"
 #include "flames/tiles.hpp"
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace firetwin::flames {
 
-/// Constants of the shape of flames.
-struct FlameShape {
-  std::array<double, 2> wind{}; ///< speed at which rising gas is carried, m/s east and north
-  double launch = 1.5;          ///< speed of rise at the ground, m/s
-  double acceleration = 7.0;    ///< of rising gas, m/s2
-  float fill = 0.85F;           ///< value at the foot of a flame without noise; it burns above 0
-  float taper = 0.95F;          ///< decrease of the value over a flame's length
-  float ragged = 3.3F;          ///< strength of the noise
-  float edge = 0.22F;           ///< values from 0 over which a flame becomes opaque
-  float roll = 0.25F;           ///< displacement by eddies relative to their size
-  float broken = 0.6F;          ///< strength of gaps at the foot where fuel is gone
+/// Gas of one kind of flames at eight points. The part `fine` of it is a stored mixture fraction,
+/// the rest is of coarser levels.
+struct GasLanes {
+  Lanes code{};         ///< 0 to 1, see `mixture_of`
+  Lanes fine{};         ///< 0 to 1
+  CoarseFlame coarse{}; ///< times 1 - fine
+  Lanes height{};       ///< over the ground, in drawn lengths
+  Lanes length{};       ///< of the flames, m
+  Lanes drawn{};        ///< length at which they are drawn, m: at least some pixels
+  Lanes share{};        ///< of the ground that burns, 0 to 1
+  bool any = false;
 };
 
-/// Flames at eight points.
+/// Gas at eight points, of three kinds that overlap.
 struct FlameSamples {
-  Lanes flame;  ///< extinction over a flame's mean, 0 to 1.4
-  Lanes heat;   ///< 0 at the coolest to 1 at the hottest part
-  Lanes soot;   ///< share of the extinction of cooled soot over the flames, 0 to 1
-  Lanes length; ///< flame length there, m
+  static constexpr std::size_t kinds = 3; ///< front, low flames behind it, crowns
+  std::array<GasLanes, kinds> gas;
+  bool any() const { return gas[0].any || gas[1].any || gas[2].any; }
 };
 
-/// Places of eight points in the flames around them.
-struct FlameShares {
-  Lanes share;  ///< height relative to the flame's length; about 1 at the outline
-  Lanes length; ///< flame length, m
-  Lanes eddy;   ///< size below which eddies are, m
-  Lanes hollow; ///< factor on the extinction: flames surround the needles of a crown
-};
-
-/// Flames as a function of place and time: a map of flame length, and noise that rises with
-/// the gas.
+/// Flames as a function of place and time: solved fires, scaled by the length of the flames.
 ///
-/// A parcel of gas leaves the ground with `launch` and accelerates, so noise is sampled at the time
-/// at which the gas left the ground. It drifts with the wind: flames lean, but eddies stay round.
-/// The octaves below half of a flame's length are sampled in bands of height and blended, because a
-/// pattern that rises faster and faster would be drawn out. Soot is in thin folded sheets within a
-/// flame. Coordinates are relative to `origin`. Nothing depends on other times or on the camera.
+/// Lengths go with L and times with sqrt(L / g) (Froude scaling: W. D. Weatherford 1965,
+/// "Measurements of the dynamics of flames"; P. H. Thomas 1963, Symp. (Int.) Combust. 9, 844-859).
+/// Across the front a point's place in a block is its foot's distance from the front over L; along
+/// the front, and in time, L is rounded to a power of 2, so that the pattern does not slide where L
+/// changes. Every three lengths along the front another part of another block is taken at another
+/// time, by a hash. Wind chooses the block, and leans what the block does not hold. Behind the front
+/// low flames stand in rows. Nothing depends on other times or on the camera.
 class FlameField {
 public:
-  static constexpr std::size_t octaves = 9, bands = 9, sways = 3;
-  static constexpr float below_ground =
-      2.0F; ///< m below the map's ground, where drawn ground may be lower
+  static constexpr float below_ground = 0.5F; ///< m below the map's ground that still burns
+  static constexpr float lean = 0.5F; ///< of flames in wind that their block does not hold (by eye)
 
-  FlameField(const FlameTiles& tiles, const FlameShape& shape, const Vector& origin, double time);
+  /// @param shape wind that carries flames, without `lean`
+  FlameField(const FlameTiles& tiles, const FlameCrowns& crowns, const FlameLibrary& library,
+             const FlameShape& shape, const Vector& origin, double time);
 
-  /// Evaluates eight points, relative to the origin, m; `fine` is the size of a pixel there, m.
-  void evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float fine,
+  /// Evaluates eight points close together, relative to the origin, m.
+  /// @param size size of a pixel there, m
+  void evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float size,
                 FlameSamples& out) const;
 
   /// Returns a distance (m) from a place in a direction within which nothing burns; 0 near flames.
@@ -64,27 +58,30 @@ public:
                       const std::array<float, 3>& direction) const;
 
 private:
-  /// Noise of one size: its lattice, turned about the vertical.
-  struct Octave {
-    float size, cosine, sine;
-    LatticeOrigin origin;          ///< z unused
-    std::array<float, bands> rate; ///< cells per second of flight in each band
-    std::array<float, bands> part; ///< place of the present in its cell
-    std::array<std::uint32_t, bands> cell;
-  };
+  struct Foot;
+  struct Line;
+  struct Octave;
+  class Octaves;
+  struct Segment;
 
-  Octave make_octave(double size, double turn, std::uint32_t seed, const Vector& origin,
-                     double time, double stretch) const;
-  float rise_speed(double height) const;
-  float flight_to(float height) const;
-  void add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& moved_x,
-                  const Lanes& moved_y, FlameShares& shares) const;
+  void find_foot(const Lanes& x, const Lanes& y, const Lanes& height, const NodeLanes& node,
+                 Foot& out) const;
+  void add_front(const Foot& foot, const Lanes& height, float size, GasLanes& out) const;
+  void add_low(const Foot& foot, const Lanes& height, float size, GasLanes& out) const;
+  void add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, float size, GasLanes& out) const;
+  void add_rows(const Foot& foot, const Octave& octave, const Lanes& height,
+                const BlockLevels& levels, GasLanes& out) const;
+  void add_line(const Line& line, const Octave& octave, GasLanes& out) const;
+  void add_segments(const Line& line, int octave, int direction, const Lanes& weight,
+                    GasLanes& out) const;
+  void add_segment(const Segment& segment, GasLanes& out) const;
 
   const FlameTiles& tiles_;
+  const FlameCrowns& crowns_;
+  const FlameLibrary& library_;
   FlameShape shape_;
-  std::array<Octave, octaves> detail_;
-  std::array<Octave, 2 * sways> sway_;
-  std::array<Octave, 2> fuel_;
+  Vector origin_;
+  double time_;
 };
 
 } // namespace firetwin::flames

@@ -9,41 +9,120 @@
 namespace firetwin::flames {
 namespace {
 
-constexpr float least_step = 0.02F, most_step = 0.5F; // m
-constexpr float fine_step = 0.016F;                   // of the flame length
-constexpr float near_step = 0.013F;                   // of the distance from the eye
-constexpr float step_pixels = 0.8F;
-constexpr float finest_eddy = 1.2F;                 // of the step: smaller ones would be noise
-constexpr float finest_pixels = 1.7F;               // pixels: eddies are folded, so they are finer
+constexpr float least_step = 0.015F; // m
+constexpr float step_cells = 1.0F;   // cells of the solved flames; 1.4 shows dots at edges (by eye)
+constexpr float step_pixels = 0.7F;
+constexpr float most_step = 0.2F; // of the flame length
 constexpr std::array<float, 2> at_lens{0.4F, 2.0F}; // m, distances up to which flames are left out
 constexpr float thin_flame = 1.0e-4F;               // 1/m, extinction that is left out
+constexpr float thin_gas = 1.0e-3F;                 // code that is left out
+constexpr float whole = 0.999F;                     // share from which flames are not thinned out
+
+/// Returns the extinction, 1/m, of flames that fill a share of their drawn length: it lets as much
+/// light through as the part of the pixel beside them does.
+float thinned(float extinction, float length, float drawn, float share) {
+  const float covered = share * length / drawn;
+  return -std::log(1.0F - covered * (1.0F - std::exp(-extinction * length))) / drawn;
+}
 
 } // namespace
 
-FlameVolume::FlameVolume(std::span<const FlameSquare> squares, std::span<const Spindle> spindles,
-                         const FlameShape& shape, const FlameLight& light, const FlameView& view,
-                         const Vector& origin, double time)
-    : origin_(origin), light_(light), view_(view),
-      tiles_(squares, spindles, shape.wind, shape.launch, shape.acceleration, origin),
-      field_(tiles_, shape, origin, time) {
-  if (light_.visible.size() < 2 || light_.scales.empty()) {
-    throw std::invalid_argument("visible must have at least two rows, and scales one");
+FlameVolume::FlameVolume(const FlamePatches& patches, std::span<const Spindle> crowns,
+                         std::shared_ptr<const FlameLibrary> library, const FlameShape& shape,
+                         const FlameLight& light, const FlameView& view, const Vector& origin,
+                         double time)
+    : library_(std::move(library)), origin_(origin), light_(light), view_(view),
+      table_(light.visible),
+      crowns_(crowns, shape, library_->crowns().front()->top(),
+              0.5F * library_->crowns().front()->across(), origin),
+      tiles_(patches,
+             {{FlameField::lean * shape.wind[0], FlameField::lean * shape.wind[1]},
+              shape.launch,
+              shape.acceleration},
+             {library_->ahead(), library_->behind(), library_->top()}, crowns_, origin),
+      field_(tiles_, crowns_, *library_, shape, origin, time) {
+  if (light_.extinction.empty()) {
+    throw std::invalid_argument("extinction needs a row");
   }
 }
 
-std::array<float, 2> FlameVolume::scale(float length) const {
-  const auto& rows = light_.scales;
+float FlameVolume::cell() const {
+  return library_->lines().front().front()->scale().cell;
+}
+
+/// Returns the visible and the infrared extinction, 1/m.
+std::array<float, 2> FlameVolume::extinction(float length, float drawn, float share) const {
+  const auto& rows = light_.extinction;
   std::size_t n = 0;
   while (n < rows.size() && rows[n][0] < length) {
     ++n;
   }
-  if (n == 0 || n == rows.size()) {
-    const auto& row = n == 0 ? rows.front() : rows.back();
-    return {row[1], row[2]};
+  const auto& low = rows[n == 0 ? 0 : n - 1];
+  const auto& high = rows[std::min(n, rows.size() - 1)];
+  const float part = high[0] > low[0] ? (length - low[0]) / (high[0] - low[0]) : 0.0F;
+  std::array<float, 2> out{low[1] + part * (high[1] - low[1]), low[2] + part * (high[2] - low[2])};
+  if (share * length < whole * drawn) {
+    for (float& each : out) {
+      each = thinned(each, length, drawn, share);
+    }
   }
-  const auto &low = rows[n - 1], &high = rows[n];
-  const float part = (length - low[0]) / (high[0] - low[0]);
-  return {low[1] + part * (high[1] - low[1]), low[2] + part * (high[2] - low[2])};
+  return out;
+}
+
+FlameStep FlameVolume::step(const FlameSamples& before, std::size_t first,
+                            const FlameSamples& after, std::size_t second) const {
+  FlameStep out;
+  std::array<float, 3> light{};
+  float hot = 0.0F;
+  for (std::size_t kind = 0; kind < FlameSamples::kinds; ++kind) {
+    const GasLanes& gas = after.gas[kind];
+    const GasLanes& last = before.gas[kind];
+    if (!gas.any && !last.any) {
+      continue;
+    }
+    const bool lit = gas.any && gas.length[second] > 0.0F;
+    const GasLanes& of = lit ? gas : last;
+    const std::size_t lane = lit ? second : first;
+    const float fine = of.fine[lane], code = gas.any ? gas.code[second] : 0.0F,
+                old = last.any ? last.code[first] : 0.0F;
+    const float coarse = gas.any ? gas.coarse.extinction[second] : 0.0F;
+    if (of.length[lane] <= 0.0F || (std::max(code, old) * fine < thin_gas && coarse < thin_gas)) {
+      continue;
+    }
+    const auto [visible, infrared] =
+        extinction(of.length[lane], of.drawn[lane], of.share[lane]);
+    FlameOptics optics{};
+    if (fine > 0.0F) {
+      optics = table_.between(old, code, of.height[lane]);
+    }
+    float flame = fine * optics.extinction, warm = fine * optics.hot;
+    std::array<float, 3> glow{fine * optics.light[0], fine * optics.light[1],
+                              fine * optics.light[2]};
+    if (coarse > 0.0F) {
+      const float part = gas.coarse.hot[second];
+      const auto colour = table_.radiance(part / coarse);
+      flame += coarse;
+      warm += part;
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        glow[channel] += coarse * colour[channel];
+      }
+    }
+    const float soot = fine * light_.soot * optics.soot;
+    out.extinction += visible * (flame + soot);
+    out.flames += visible * flame;
+    out.infrared += infrared * flame;
+    hot += infrared * warm;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      light[channel] += visible * (glow[channel] + soot * light_.soot_light[channel]);
+    }
+  }
+  if (out.extinction > 0.0F) {
+    out.heat = out.infrared > 0.0F ? hot / out.infrared : 0.0F;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      out.radiance[channel] = light[channel] / out.extinction;
+    }
+  }
+  return out;
 }
 
 float FlameView::share(float away) const {
@@ -87,7 +166,6 @@ FlameRay::FlameRay(const FlameVolume& flames, const Vector& origin, const Vector
 
 bool FlameRay::next(float limit, FlameSlab& slab) {
   constexpr float past = 1.0e-3F; // m
-  const FlameView& view = flames_.view();
   limit = std::min(limit, end_);
   while (at_ < limit) {
     const float x = start_[0] + direction_[0] * at_, y = start_[1] + direction_[1] * at_,
@@ -115,13 +193,9 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
       at_ = std::min(at_ + std::max(free, past), leave);
       continue;
     }
-    const float size =
-        std::clamp(std::min(fine_step * tile.length, near_step * at_), least_step, most_step);
-    float step = std::max(size, step_pixels * view.pixel * at_);
-    const auto count = static_cast<float>(lane_count);
-    step = std::min(step, (limit - at_) / count + 1.0e-6F);
+    const float step = step_at(tile, limit);
     fill(at_, step, slab);
-    at_ += step * count;
+    at_ += step * static_cast<float>(lane_count);
     if (slab.transmittance < 1.0F || slab.infrared_transmittance < 1.0F) {
       return true;
     }
@@ -129,49 +203,56 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
   return false;
 }
 
-void FlameRay::fill(float from, float step, FlameSlab& slab) const {
+float FlameRay::step_at(const FlameTiles::Tile& tile, float limit) const {
+  const float pixel = step_pixels * flames_.view().pixel * at_;
+  const float size = std::max(step_cells * flames_.cell() * tile.length, least_step);
+  const float step = std::clamp(pixel, size, std::max(most_step * tile.length, size));
+  return std::min(step, (limit - at_) / static_cast<float>(lane_count) + 1.0e-6F);
+}
+
+/// Samples are at the ends of the steps; each step is between two of them.
+void FlameRay::fill(float from, float step, FlameSlab& slab) {
   const FlameLight& light = flames_.light();
   const FlameView& view = flames_.view();
   slab = {from, from + step * static_cast<float>(lane_count), {}, 1.0F, 0.0F, 1.0F, 0.0F};
   Lanes away;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    away[lane] = from + step * (static_cast<float>(lane) + 0.5F);
+    away[lane] = from + step * (static_cast<float>(lane) + 1.0F);
   }
-  FlameSamples found;
-  const float fine =
-      std::max(finest_pixels * view.pixel * away[lane_count / 2], finest_eddy * step);
+  FlameSamples samples;
   flames_.field().evaluate(start_[0] + direction_[0] * away, start_[1] + direction_[1] * away,
-                           start_[2] + direction_[2] * away, fine, found);
-  const auto last = static_cast<float>(light.visible.size() - 1);
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const float part = view.share(away[lane]);
-    const auto [visible, emissive] = flames_.scale(found.length[lane]);
-    const float burning = light.extinction * visible * found.flame[lane] * part;
-    const float soot = light.soot * found.soot[lane] * part, all = burning + soot;
-    if (all <= thin_flame) {
-      continue;
-    }
-    slab.share += burning > thin_flame ? 1.0F / static_cast<float>(lane_count) : 0.0F;
-    const float kept = std::exp(-all * step);
-    const float share = slab.transmittance * (1.0F - kept) / all;
-    const float at = std::min(found.heat[lane] * last, last - 1.0e-3F);
-    const auto row = static_cast<std::size_t>(at);
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      const float low = light.visible[row][channel], high = light.visible[row + 1][channel];
-      slab.radiance[channel] +=
-          share * (burning * (low + (high - low) * (at - static_cast<float>(row))) +
-                   soot * light.soot_light[channel]);
-    }
-    slab.transmittance *= kept;
-    if (band_ != nullptr) {
-      const float passed = std::exp(-light.infrared * emissive * found.flame[lane] * part * step);
-      const double kelvin =
-          light.coolest + (light.hottest - light.coolest) * static_cast<double>(found.heat[lane]);
-      slab.infrared +=
-          slab.infrared_transmittance * (1.0F - passed) * band_->at(static_cast<float>(kelvin));
-      slab.infrared_transmittance *= passed;
+                           start_[2] + direction_[2] * away, view.pixel * away[lane_count / 2],
+                           samples);
+  const bool joined = before_at_ == from;
+  before_at_ = slab.to;
+  if (samples.any() || (joined && before_.any())) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const bool start = lane == 0 && !joined;
+      const FlameSamples& before = lane > 0 || start ? samples : before_;
+      const std::size_t last = lane > 0 ? lane - 1 : start ? 0 : lane_count - 1;
+      FlameStep found = flames_.step(before, last, samples, lane);
+      const float part = view.share(away[lane] - 0.5F * step);
+      if (found.extinction * part <= thin_flame) {
+        continue;
+      }
+      slab.share += found.flames * part > thin_flame ? 1.0F / static_cast<float>(lane_count) : 0.0F;
+      const float kept = std::exp(-found.extinction * part * step);
+      const float share = slab.transmittance * (1.0F - kept);
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        slab.radiance[channel] += share * found.radiance[channel];
+      }
+      slab.transmittance *= kept;
+      if (band_ != nullptr) {
+        const float passed = std::exp(-found.infrared * part * step);
+        const double kelvin =
+            light.coolest + (light.hottest - light.coolest) * static_cast<double>(found.heat);
+        slab.infrared +=
+            slab.infrared_transmittance * (1.0F - passed) * band_->at(static_cast<float>(kelvin));
+        slab.infrared_transmittance *= passed;
+      }
     }
   }
+  before_ = samples;
   if (slab.infrared > 0.0F) {
     const float far = 0.001F * away[lane_count / 2];
     slab.infrared *= std::exp(-light.dim * std::sqrt(far * std::sqrt(far)));

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "flames/field.hpp"
+#include "flames/table.hpp"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,14 +14,12 @@ namespace firetwin::flames {
 /// Light and heat of flames, by heat from 0 (coolest) to 1 (hottest).
 struct FlameLight {
   std::vector<std::array<float, 3>> visible; ///< radiance at evenly spaced heats
-  float extinction;                          ///< 1/m
-  float soot;                                ///< extinction of cooled soot over the flames, 1/m
   std::array<float, 3> soot_light;           ///< radiance of soot per unit of optical depth
-  double coolest, hottest;                   ///< temperatures at heat 0 and 1, K
-  /// Flame length (m), and factors on the visible and the infrared extinction; linear between rows.
-  std::vector<std::array<float, 3>> scales;
-  float infrared; ///< infrared extinction, 1/m
-  float dim;      ///< optical depth of 1 km of air in the infrared; it grows with distance^0.75
+  float soot; ///< extinction of cooled soot over the flames, over a flame's
+  double coolest, hottest; ///< temperatures at heat 0 and 1, K
+  /// Flame length (m), visible and infrared extinction (1/m); linear between rows.
+  std::vector<std::array<float, 3>> extinction;
+  float dim; ///< optical depth of 1 km of air in the infrared; it grows with distance^0.75
 };
 
 /// Resolution and range of a camera.
@@ -32,12 +32,20 @@ struct FlameView {
   float share(float away) const;
 };
 
+/// Extinction, light and temperature of flames in a step.
+struct FlameStep {
+  float extinction = 0.0F;          ///< of flames and soot, 1/m
+  std::array<float, 3> radiance{};  ///< of what extinguishes
+  float flames = 0.0F, heat = 0.0F; ///< extinction of flames alone, 1/m, and their mean heat
+  float infrared = 0.0F;            ///< extinction, 1/m
+};
+
 /// Flames of one frame, as a volume.
 class FlameVolume {
 public:
-  FlameVolume(std::span<const FlameSquare> squares, std::span<const Spindle> spindles,
-              const FlameShape& shape, const FlameLight& light, const FlameView& view,
-              const Vector& origin, double time);
+  FlameVolume(const FlamePatches& patches, std::span<const Spindle> crowns,
+              std::shared_ptr<const FlameLibrary> library, const FlameShape& shape,
+              const FlameLight& light, const FlameView& view, const Vector& origin, double time);
   FlameVolume(const FlameVolume&) = delete;
   FlameVolume& operator=(const FlameVolume&) = delete;
 
@@ -46,13 +54,21 @@ public:
   const FlameLight& light() const { return light_; }
   const FlameView& view() const { return view_; }
   const Vector& origin() const { return origin_; }
-  /// Factors on the visible and the infrared extinction at a flame length, m.
-  std::array<float, 2> scale(float length) const;
+  float cell() const; ///< of the solved flames, in flame lengths
+
+  /// Computes a step between the gas of two lanes.
+  FlameStep step(const FlameSamples& before, std::size_t first, const FlameSamples& after,
+                 std::size_t second) const;
 
 private:
+  std::array<float, 2> extinction(float length, float drawn, float share) const;
+
+  std::shared_ptr<const FlameLibrary> library_;
   Vector origin_;
   FlameLight light_;
   FlameView view_;
+  FlameTable table_;
+  FlameCrowns crowns_;
   FlameTiles tiles_;
   FlameField field_;
 };
@@ -84,12 +100,15 @@ public:
   bool next(float limit, FlameSlab& slab);
 
 private:
-  void fill(float from, float step, FlameSlab& slab) const;
+  float step_at(const FlameTiles::Tile& tile, float limit) const;
+  void fill(float from, float step, FlameSlab& slab);
 
   const FlameVolume& flames_;
   const BandRadiance* band_;
   std::array<float, 3> start_, direction_;
   float at_, end_;
+  FlameSamples before_;     ///< at the end of the last slab, in its last lane
+  float before_at_ = -1.0F; ///< m
 };
 
 } // namespace firetwin::flames

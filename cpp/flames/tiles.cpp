@@ -2,340 +2,365 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace firetwin::flames {
 namespace {
 
-constexpr float spindle_cell = 8.0F; // m
-constexpr float swing = 0.4F; // reach of swaying and eddies in flame lengths, at most `most_swing`
-constexpr float most_swing = 6.0F; // m
-constexpr float overshoot = 0.05F; // cells by which steps may enter one with flames, for progress
-constexpr float outside = 10.0F;   // m, step outside of all squares
-constexpr float crown_sway = 1.5F; // m
+constexpr std::int64_t patch_nodes = patch_side + 1;
+constexpr std::array<double, 2> squares{1024.0, 128.0}; // m, that are skipped at once if empty
+constexpr double most_squares = 1.0e7;
+constexpr float past_edge = 0.05F;      // tiles by which steps may enter one with flames
+constexpr float beside_patches = 16.0F; // m, step where only crowns may burn
+constexpr float below_front = 50.0F;  // m, depth to which ground is searched below a tile's
+constexpr float no_end = std::numeric_limits<float>::max();
 
-std::int64_t tiles_of(std::int64_t cells) {
-  return (cells + FlameTiles::side - 1) / FlameTiles::side;
+std::int64_t square_number(double at, double span) {
+  return static_cast<std::int64_t>(std::floor(at / span));
 }
 
-/// Returns the time that gas takes to rise to a height (m) from the ground, s.
-double flight_time(double height, double launch, double acceleration) {
-  return (std::sqrt(launch * launch + 2.0 * acceleration * height) - launch) / acceleration;
-}
+/// Length of the flames that may stand in a tile, m, by the nodes around its cells.
+struct TileFlames {
+  float front = 0.0F, low = 0.0F, nearest = no_end, farthest = -no_end;
+  float ground = FlameTiles::none, lowest = no_end;
 
-/// Interpolates linearly within a cell.
-float interpolate_cell(const std::vector<float>& values, std::int64_t columns, std::int64_t row,
-                       std::int64_t column, float up, float right) {
-  const float* low = values.data() + row * columns + column;
-  const float* high = low + columns;
-  const float a = low[0] + (low[1] - low[0]) * right, b = high[0] + (high[1] - high[0]) * right;
-  return a + (b - a) * up;
-}
+  void add(const Node& node) {
+    front = std::max(front, node[length_channel]);
+    low = std::max(low, node[low_channel]);
+    nearest = std::min(nearest, node[distance_channel]);
+    farthest = std::max(farthest, node[distance_channel]);
+    ground = std::max(ground, node[ground_channel]);
+    lowest = std::min(lowest, node[ground_channel]);
+  }
+  float longest(const FlameReach& reach) const {
+    const bool burns = nearest < reach.behind * front && farthest > -reach.ahead * front;
+    return std::max(burns ? front : 0.0F, low);
+  }
+};
 
 } // namespace
 
-FlameTiles::FlameTiles(std::span<const FlameSquare> squares, std::span<const Spindle> spindles,
-                       const std::array<double, 2>& wind, double launch, double acceleration,
-                       const Vector& origin)
-    : spindles_(spindles.begin(), spindles.end()) {
-  for (const FlameSquare& square : squares) {
-    add_square(square, origin);
+bool FlameTiles::Patch::contains(float east, float north) const {
+  const float wide = static_cast<float>(patch_side) * spacing;
+  return east >= x && north >= y && east < x + wide && north < y + wide;
+}
+
+void FlameTiles::Patch::interpolate(float east, float north, Lanes& out) const {
+  constexpr float last = static_cast<float>(patch_side) - 0.001F;
+  const float column = std::clamp((east - x) * inverse, 0.0F, last),
+              row = std::clamp((north - y) * inverse, 0.0F, last);
+  const auto i = static_cast<std::size_t>(row), j = static_cast<std::size_t>(column);
+  const float up = row - static_cast<float>(i), right = column - static_cast<float>(j);
+  const Node* low = nodes.data() + i * patch_nodes + j;
+  const Node* high = low + patch_nodes;
+  Lanes a, b, c, d;
+  load(low[0].data(), a);
+  load(low[1].data(), b);
+  load(high[0].data(), c);
+  load(high[1].data(), d);
+  a += (b - a) * right;
+  c += (d - c) * right;
+  out = a + (c - a) * up;
+}
+
+std::size_t FlameTiles::Patch::tile_at(float east, float north, float& right, float& up) const {
+  constexpr float last = static_cast<float>(tiles_along) - 0.001F;
+  const float scale = inverse / static_cast<float>(side);
+  right = std::clamp((east - x) * scale, 0.0F, last);
+  up = std::clamp((north - y) * scale, 0.0F, last);
+  const auto i = static_cast<std::size_t>(up), j = static_cast<std::size_t>(right);
+  right -= static_cast<float>(j);
+  up -= static_cast<float>(i);
+  return i * tiles_along + j;
+}
+
+FlameTiles::Tile FlameTiles::Patch::tile(std::size_t number) const {
+  const float span = spacing * static_cast<float>(side);
+  const float left = x + static_cast<float>(number % tiles_along) * span,
+              low = y + static_cast<float>(number / tiles_along) * span;
+  return {top[number], longest[number], {left, left + span, low, low + span}};
+}
+
+std::int32_t FlameTiles::Level::at(std::int64_t i, std::int64_t j) const {
+  i -= first[0];
+  j -= first[1];
+  return i < 0 || j < 0 || i >= size[0] || j >= size[1]
+             ? -1
+             : index[static_cast<std::size_t>(j * size[0] + i)];
+}
+
+FlameTiles::FlameTiles(const FlamePatches& patches, const FlameShape& shape,
+                       const FlameReach& reach, const FlameCrowns& crowns, const Vector& origin)
+    : origin_(origin), bounds_{no_end, -no_end, no_end, -no_end},
+      heights_{no_end, -no_end} {
+  add_patches(patches, origin);
+  list_levels(patches);
+  bound_patches(shape, reach);
+  bound_crowns(crowns);
+  if (!any_) {
+    return;
   }
-  for (Spindle& each : spindles_) {
-    each.x -= static_cast<float>(origin[0]);
-    each.y -= static_cast<float>(origin[1]);
-    each.z -= static_cast<float>(origin[2]);
-  }
-  constexpr float far = std::numeric_limits<float>::max();
-  bounds_ = {far, -far, far, -far};
-  heights_ = {far, -far};
-  bound_tiles(wind, launch, acceleration);
-  list_spindles(wind, launch, acceleration);
-  if (!levels_.empty()) { // the coarsest contains all others
-    const Level& all = levels_.back();
-    const float wide = static_cast<float>(all.columns - 1) * all.spacing,
-                deep = static_cast<float>(all.rows - 1) * all.spacing;
-    bounds_ = {std::max(bounds_[0], all.x), std::min(bounds_[1], all.x + wide),
-               std::max(bounds_[2], all.y), std::min(bounds_[3], all.y + deep)};
+  for (std::size_t n = 0; n < squares.size(); ++n) {
+    Level& grid = occupied_[n];
+    grid.span = squares[n];
+    grid.first = place(bounds_[0], bounds_[2], grid.span);
+    const auto last = place(bounds_[1], bounds_[3], grid.span);
+    grid.size = {last[0] - grid.first[0] + 1, last[1] - grid.first[1] + 1};
+    if (static_cast<double>(grid.size[0]) * static_cast<double>(grid.size[1]) > most_squares) {
+      throw std::invalid_argument("patches of flames are too far apart");
+    }
+    grid.index.assign(static_cast<std::size_t>(grid.size[0] * grid.size[1]), -1);
+    const auto mark = [&](const std::array<float, 4>& box) {
+      const auto low = place(box[0], box[2], grid.span), high = place(box[1], box[3], grid.span);
+      for (auto j = low[1]; j <= high[1]; ++j) {
+        for (auto i = low[0]; i <= high[0]; ++i) {
+          grid.index[static_cast<std::size_t>((j - grid.first[1]) * grid.size[0] + i -
+                                              grid.first[0])] = 0;
+        }
+      }
+    };
+    for (const Patch& each : patches_) {
+      for (std::size_t tile = 0; tile < tile_count; ++tile) {
+        if (each.top[tile] > none) {
+          auto box = each.tile(tile).bounds;
+          box = {std::max(box[0], bounds_[0]), std::min(box[1], bounds_[1]),
+                 std::max(box[2], bounds_[2]), std::min(box[3], bounds_[3])};
+          mark(box);
+        }
+      }
+    }
+    for (std::size_t crown = 0; crown < crowns.all().size(); ++crown) {
+      mark(crowns.box(crown));
+    }
   }
 }
 
-void FlameTiles::add_square(const FlameSquare& square, const Vector& origin) {
-  const auto [rows, columns] = square.shape;
-  const auto cells = static_cast<std::size_t>(rows * columns);
-  if (rows < 2 || columns < 2 || square.length.size() != cells || square.ground.size() != cells ||
-      !(square.spacing > 0.0)) {
-    throw std::invalid_argument("length and ground of a square need one shape of at least 2 x 2");
+void FlameTiles::add_patches(const FlamePatches& patches, const Vector& origin) {
+  const std::size_t count = patches.spacing.size(),
+                    each = static_cast<std::size_t>(patch_nodes * patch_nodes);
+  if (patches.corner.size() != 2 * count ||
+      patches.nodes.size() != count * each * channel_count) {
+    throw std::invalid_argument("nodes must be (n, 33, 33, 8), corners (n, 2), and spacings (n)");
   }
-  Level made{{square.length.begin(), square.length.end()},
-             {square.ground.begin(), square.ground.end()},
-             rows,
-             columns,
-             tiles_of(rows),
-             tiles_of(columns),
-             static_cast<float>(square.corner[0] - origin[0]),
-             static_cast<float>(square.corner[1] - origin[1]),
-             static_cast<float>(square.spacing),
-             static_cast<float>(1.0 / square.spacing),
-             {},
-             {},
-             {},
-             {}};
-  for (float& height : made.ground) {
-    height -= static_cast<float>(origin[2]);
+  patches_.resize(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const double spacing = patches.spacing[n];
+    if (!(spacing > 0.0)) {
+      throw std::invalid_argument("spacings of patches must be positive");
+    }
+    Patch& made = patches_[n];
+    made.nodes.resize(each);
+    std::memcpy(made.nodes.data(), patches.nodes.data() + n * each * channel_count,
+                each * sizeof(Node));
+    for (Node& node : made.nodes) {
+      node[ground_channel] -= static_cast<float>(origin[2]);
+    }
+    made.x = static_cast<float>(patches.corner[2 * n] - origin[0]);
+    made.y = static_cast<float>(patches.corner[2 * n + 1] - origin[1]);
+    made.spacing = static_cast<float>(spacing);
+    made.inverse = static_cast<float>(1.0 / spacing);
+    made.top.fill(none);
+    made.longest.fill(0.0F);
+    made.rooted.fill(0.0F);
   }
-  constexpr float inside = 0.999F; // of the last cell: coordinates are rounded
-  made.end = {made.x + (static_cast<float>(columns - 2) + inside) * made.spacing,
-              made.y + (static_cast<float>(rows - 2) + inside) * made.spacing};
-  const auto tiles = static_cast<std::size_t>(made.tile_rows * made.tile_columns);
-  made.top.assign(tiles, none);
-  made.longest.assign(tiles, 0.0F);
-  made.rooted.assign(tiles, 0.0F);
-  levels_.push_back(std::move(made));
 }
 
-/// Returns the finest level around a place; null outside.
-const FlameTiles::Level* FlameTiles::level(float x, float y) const {
-  for (const Level& each : levels_) {
-    if (each.contains(x, y)) {
-      return &each;
+void FlameTiles::list_levels(const FlamePatches& patches) {
+  std::vector<double> spacings(patches.spacing.begin(), patches.spacing.end());
+  std::sort(spacings.begin(), spacings.end());
+  spacings.erase(std::unique(spacings.begin(), spacings.end()), spacings.end());
+  for (const double spacing : spacings) {
+    Level made{spacing * static_cast<double>(patch_side), {}, {}, {}};
+    std::vector<std::pair<std::array<std::int64_t, 2>, std::int32_t>> members;
+    for (std::size_t n = 0; n < patches.spacing.size(); ++n) {
+      if (patches.spacing[n] == spacing) {
+        const double half = 0.5 * spacing;
+        members.push_back({{square_number(patches.corner[2 * n] + half, made.span),
+                            square_number(patches.corner[2 * n + 1] + half, made.span)},
+                           static_cast<std::int32_t>(n)});
+      }
+    }
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const auto less = [axis](const auto& a, const auto& b) {
+        return a.first[axis] < b.first[axis];
+      };
+      const auto [low, high] = std::minmax_element(members.begin(), members.end(), less);
+      made.first[axis] = low->first[axis];
+      made.size[axis] = high->first[axis] - low->first[axis] + 1;
+    }
+    if (static_cast<double>(made.size[0]) * static_cast<double>(made.size[1]) > most_squares) {
+      throw std::invalid_argument("patches of flames are too far apart");
+    }
+    made.index.assign(static_cast<std::size_t>(made.size[0] * made.size[1]), -1);
+    for (const auto& [at, number] : members) {
+      made.index[static_cast<std::size_t>((at[1] - made.first[1]) * made.size[0] + at[0] -
+                                          made.first[0])] = number;
+    }
+    levels_.push_back(std::move(made));
+  }
+  finest_ = spacings.empty() ? 0.0F : static_cast<float>(spacings.front());
+}
+
+std::array<std::int64_t, 2> FlameTiles::place(float x, float y, double span) const {
+  return {square_number(static_cast<double>(x) + origin_[0], span),
+          square_number(static_cast<double>(y) + origin_[1], span)};
+}
+
+std::array<float, 4> FlameTiles::square(const std::array<std::int64_t, 2>& at, double span) const {
+  const auto edge = [&](std::size_t axis, std::int64_t more) {
+    return static_cast<float>(static_cast<double>(at[axis] + more) * span - origin_[axis]);
+  };
+  return {edge(0, 0), edge(0, 1), edge(1, 0), edge(1, 1)};
+}
+
+/// Returns the finest patch at a place; null outside of all.
+const FlameTiles::Patch* FlameTiles::patch(float x, float y) const {
+  for (const Level& level : levels_) {
+    const auto [i, j] = place(x, y, level.span);
+    if (const std::int32_t number = level.at(i, j); number >= 0) {
+      return &patches_[static_cast<std::size_t>(number)];
     }
   }
   return nullptr;
 }
 
-/// Interpolates in the level of the first place, or in their own levels if it does not contain all.
-void FlameTiles::interpolate_lanes(std::vector<float> Level::* values, float outside,
-                                   const Lanes& x, const Lanes& y, Lanes& out) const {
-  const Level* first = level(x[0], y[0]);
+void FlameTiles::nodes(const Lanes& x, const Lanes& y, NodeLanes& out) const {
+  const Patch* last = nullptr;
+  std::array<Lanes, lane_count> rows;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const Level* at = first;
-    if (at == nullptr || !at->contains(x[lane], y[lane])) {
-      at = level(x[lane], y[lane]);
+    // Finer patches may cover a part of a coarse one.
+    if (last == nullptr || last->spacing > finest_ || !last->contains(x[lane], y[lane])) {
+      last = patch(x[lane], y[lane]);
     }
-    if (at == nullptr) {
-      out[lane] = outside;
-      continue;
+    if (last == nullptr) {
+      rows[lane] = Lanes{};
+      rows[lane][ground_channel] = none;
+    } else {
+      last->interpolate(x[lane], y[lane], rows[lane]);
     }
-    const float column = (x[lane] - at->x) * at->inverse, row = (y[lane] - at->y) * at->inverse;
-    const auto i = static_cast<std::int32_t>(row), j = static_cast<std::int32_t>(column);
-    out[lane] = interpolate_cell(at->*values, at->columns, i, j, row - static_cast<float>(i),
-                                 column - static_cast<float>(j));
   }
-}
-
-void FlameTiles::ground(const Lanes& x, const Lanes& y, Lanes& out) const {
-  interpolate_lanes(&Level::ground, none, x, y, out);
-}
-
-void FlameTiles::length(const Lanes& x, const Lanes& y, Lanes& out) const {
-  interpolate_lanes(&Level::length, 0.0F, x, y, out);
+  for (std::size_t channel = 0; channel < channel_count; ++channel) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      out[channel][lane] = rows[lane][channel];
+    }
+  }
 }
 
 float FlameTiles::ground_at(float x, float y) const {
-  const Level* at = level(x, y);
+  const Patch* at = patch(x, y);
   if (at == nullptr) {
     return none;
   }
-  const float column = (x - at->x) * at->inverse, row = (y - at->y) * at->inverse;
-  const auto i = static_cast<std::int32_t>(row), j = static_cast<std::int32_t>(column);
-  return interpolate_cell(at->ground, at->columns, i, j, row - static_cast<float>(i),
-                          column - static_cast<float>(j));
+  Lanes node;
+  at->interpolate(x, y, node);
+  return node[ground_channel];
 }
 
 FlameTiles::Roots FlameTiles::rooted(float x, float y) const {
-  const Level* at = level(x, y);
+  const Patch* at = patch(x, y);
   if (at == nullptr) {
-    return {0.0F, outside};
+    return {0.0F, beside_patches};
   }
-  const float scale = at->inverse / static_cast<float>(side);
-  const float row = (y - at->y) * scale, column = (x - at->x) * scale;
-  const auto i = static_cast<std::int64_t>(row), j = static_cast<std::int64_t>(column);
-  const float up = row - static_cast<float>(i), right = column - static_cast<float>(j);
+  float right, up;
+  const std::size_t number = at->tile_at(x, y, right, up);
   const float edge = std::min(std::min(up, 1.0F - up), std::min(right, 1.0F - right));
-  return {at->rooted[static_cast<std::size_t>(i * at->tile_columns + j)],
-          (edge + overshoot) / scale};
-}
-
-float FlameTiles::spindle_distance(float x, float y, float z, float across) const {
-  constexpr float far = std::numeric_limits<float>::max();
-  if (spindles_.empty()) {
-    return far;
-  }
-  const float i = (x - spindle_corner_[0]) / spindle_cell,
-              j = (y - spindle_corner_[1]) / spindle_cell;
-  const float wide = static_cast<float>(spindle_cells_[0]),
-              deep = static_cast<float>(spindle_cells_[1]);
-  float edge = std::max(std::max(-i, i - wide), std::max(-j, j - deep));
-  float over = far;
-  if (edge < 0.0F) {
-    const float right = i - std::floor(i), up = j - std::floor(j);
-    edge = std::min(std::min(up, 1.0F - up), std::min(right, 1.0F - right));
-    for (const std::uint32_t number : spindles_at(x, y)) {
-      const Spindle& crown = spindles_[number];
-      over = std::min(over, z - crown.z - crown_top * crown.top);
-    }
-  }
-  if (over <= 0.0F) {
-    return 0.0F;
-  }
-  return std::min(over, (edge + overshoot) * spindle_cell / std::max(across, 0.01F));
+  return {at->rooted[number], (edge + past_edge) * static_cast<float>(side) * at->spacing};
 }
 
 bool FlameTiles::find(float x, float y, Tile& tile) const {
-  const Level* at = level(x, y);
-  if (at == nullptr) {
+  if (!any_ || x < bounds_[0] || x > bounds_[1] || y < bounds_[2] || y > bounds_[3]) {
     return false;
   }
-  const float span = at->spacing * static_cast<float>(side);
-  const auto i = static_cast<std::int64_t>((y - at->y) / span);
-  const auto j = static_cast<std::int64_t>((x - at->x) / span);
-  const auto number = static_cast<std::size_t>(i * at->tile_columns + j);
-  const float left = at->x + static_cast<float>(j) * span,
-              low = at->y + static_cast<float>(i) * span;
-  const float last_x = at->x + static_cast<float>(at->columns - 1) * at->spacing;
-  const float last_y = at->y + static_cast<float>(at->rows - 1) * at->spacing;
-  tile = {at->top[number],
-          at->longest[number],
-          {left, std::min(left + span, last_x), low, std::min(low + span, last_y)}};
+  for (const Level& grid : occupied_) {
+    const auto at = place(x, y, grid.span);
+    if (grid.at(at[0], at[1]) < 0) {
+      tile = {none, 0.0F, square(at, grid.span)};
+      return true;
+    }
+  }
+  if (const Patch* at = patch(x, y)) {
+    float right, up;
+    tile = at->tile(at->tile_at(x, y, right, up));
+    return true;
+  }
+  const double span = static_cast<double>(beside_patches);
+  tile = {heights_[1], 0.0F, square(place(x, y, span), span)};
   return true;
 }
 
-/// Calls a function with each tile of all levels in a rectangle.
+/// Calls a function with each tile in a rectangle.
 template <class Function>
-void FlameTiles::visit(float x0, float x1, float y0, float y1, const Function& function) {
-  for (Level& each : levels_) {
-    const float scale = each.inverse / static_cast<float>(side);
-    const auto tile = [scale](float at, float from, std::int64_t count) {
-      return std::clamp(static_cast<std::int64_t>(std::floor((at - from) * scale)),
-                        std::int64_t{-1}, count);
-    };
-    const auto j0 = tile(x0, each.x, each.tile_columns), j1 = tile(x1, each.x, each.tile_columns);
-    const auto i0 = tile(y0, each.y, each.tile_rows), i1 = tile(y1, each.y, each.tile_rows);
-    for (auto i = std::max(i0, std::int64_t{0}); i <= std::min(i1, each.tile_rows - 1); ++i) {
-      for (auto j = std::max(j0, std::int64_t{0}); j <= std::min(j1, each.tile_columns - 1); ++j) {
-        function(each, static_cast<std::size_t>(i * each.tile_columns + j));
+void FlameTiles::visit(const std::array<float, 4>& box, const Function& function) {
+  for (const Level& level : levels_) {
+    const auto low = place(box[0], box[2], level.span), high = place(box[1], box[3], level.span);
+    const auto last = [&](std::size_t axis) { return level.first[axis] + level.size[axis] - 1; };
+    for (auto j = std::max(low[1], level.first[1]); j <= std::min(high[1], last(1)); ++j) {
+      for (auto i = std::max(low[0], level.first[0]); i <= std::min(high[0], last(0)); ++i) {
+        const std::int32_t number = level.at(i, j);
+        if (number < 0) {
+          continue;
+        }
+        Patch& each = patches_[static_cast<std::size_t>(number)];
+        for (std::size_t tile = 0; tile < tile_count; ++tile) {
+          const auto bounds = each.tile(tile).bounds;
+          if (bounds[0] <= box[1] && bounds[1] >= box[0] && bounds[2] <= box[3] &&
+              bounds[3] >= box[2]) {
+            function(each, tile);
+          }
+        }
       }
     }
   }
 }
 
-/// Raises the bounds of all tiles of all levels in a rectangle.
-void FlameTiles::raise(float x0, float x1, float y0, float y1, float top, float length) {
+/// Raises the bounds of all tiles in a rectangle.
+void FlameTiles::raise(const std::array<float, 4>& box, float top, float length) {
   any_ = true;
-  bounds_ = {std::min(bounds_[0], x0), std::max(bounds_[1], x1), std::min(bounds_[2], y0),
-             std::max(bounds_[3], y1)};
+  bounds_ = {std::min(bounds_[0], box[0]), std::max(bounds_[1], box[1]),
+             std::min(bounds_[2], box[2]), std::max(bounds_[3], box[3])};
   heights_[1] = std::max(heights_[1], top);
-  visit(x0, x1, y0, y1, [top, length](Level& level, std::size_t number) {
-    level.top[number] = std::max(level.top[number], top);
-    level.longest[number] = std::max(level.longest[number], length);
+  visit(box, [top, length](Patch& each, std::size_t tile) {
+    each.top[tile] = std::max(each.top[tile], top);
+    each.longest[tile] = std::max(each.longest[tile], length);
   });
 }
 
-void FlameTiles::bound_tiles(const std::array<double, 2>& wind, double launch,
-                             double acceleration) {
-  const auto drift = [&](double height, std::size_t axis) {
-    return static_cast<float>(wind[axis] * flight_time(height, launch, acceleration));
-  };
-  for (std::size_t n = 0; n < levels_.size(); ++n) {
-    for (std::int64_t ti = 0; ti < levels_[n].tile_rows; ++ti) {
-      for (std::int64_t tj = 0; tj < levels_[n].tile_columns; ++tj) {
-        const Level& each = levels_[n];
-        const std::int64_t i0 = ti * side, j0 = tj * side;
-        const std::int64_t i1 = std::min(i0 + side, each.rows - 1),
-                           j1 = std::min(j0 + side, each.columns - 1);
-        float longest = 0.0F, ground = none;
-        for (std::int64_t i = i0; i <= i1; ++i) {
-          for (std::int64_t j = j0; j <= j1; ++j) {
-            const auto at = static_cast<std::size_t>(i * each.columns + j);
-            longest = std::max(longest, each.length[at]);
-            ground = std::max(ground, each.ground[at]);
-          }
+void FlameTiles::bound_patches(const FlameShape& shape, const FlameReach& reach) {
+  for (Patch& each : patches_) {
+    for (std::size_t tile = 0; tile < tile_count; ++tile) {
+      const std::size_t i0 = tile / tiles_along * side, j0 = tile % tiles_along * side;
+      TileFlames flames;
+      for (std::size_t i = i0; i <= i0 + side; ++i) {
+        for (std::size_t j = j0; j <= j0 + side; ++j) {
+          flames.add(each.nodes[i * patch_nodes + j]);
         }
-        if (longest <= 0.0F) {
-          continue;
-        }
-        heights_[0] = std::min(heights_[0], ground - 50.0F);
-        const float high = soot_top * longest, sway = std::min(swing * longest, most_swing);
-        const float dx = drift(static_cast<double>(high), 0),
-                    dy = drift(static_cast<double>(high), 1);
-        const float x = each.x + static_cast<float>(j0) * each.spacing,
-                    y = each.y + static_cast<float>(i0) * each.spacing;
-        const float wide = static_cast<float>(j1 - j0) * each.spacing,
-                    deep = static_cast<float>(i1 - i0) * each.spacing;
-        visit(x - sway, x + wide + sway, y - sway, y + deep + sway,
-              [longest](Level& level, std::size_t number) {
-                level.rooted[number] = std::max(level.rooted[number], longest);
-              });
-        raise(x + std::min(dx, 0.0F) - sway, x + wide + std::max(dx, 0.0F) + sway,
-              y + std::min(dy, 0.0F) - sway, y + deep + std::max(dy, 0.0F) + sway,
-              ground + high + sway, longest);
       }
+      const float longest = flames.longest(reach);
+      if (longest <= 0.0F) {
+        continue;
+      }
+      each.rooted[tile] = longest;
+      heights_[0] = std::min(heights_[0], flames.lowest - below_front);
+      const float high = reach.top * longest, flight = shape.flight_to(high);
+      const float dx = static_cast<float>(shape.wind[0]) * flight,
+                  dy = static_cast<float>(shape.wind[1]) * flight;
+      const auto box = each.tile(tile).bounds;
+      raise({box[0] + std::min(dx, 0.0F), box[1] + std::max(dx, 0.0F), box[2] + std::min(dy, 0.0F),
+             box[3] + std::max(dy, 0.0F)},
+            flames.ground + high, longest);
     }
   }
 }
 
-void FlameTiles::list_spindles(const std::array<double, 2>& wind, double launch,
-                               double acceleration) {
-  if (spindles_.empty()) {
-    return;
+void FlameTiles::bound_crowns(const FlameCrowns& crowns) {
+  for (std::size_t n = 0; n < crowns.all().size(); ++n) {
+    const Spindle& crown = crowns.all()[n];
+    raise(crowns.box(n), crowns.top(crown), crown.top);
+    heights_[0] = std::min(heights_[0], crown.z);
   }
-  std::array<float, 4> box{bounds_};
-  std::vector<std::array<float, 4>> boxes;
-  for (const Spindle& each : spindles_) {
-    const float wide = crown_wide * each.radius + crown_sway;
-    const double free = static_cast<double>((crown_top - upright) * each.top);
-    const double flight = static_cast<double>(lean) * flight_time(free, launch, acceleration);
-    const auto dx = static_cast<float>(wind[0] * flight), dy = static_cast<float>(wind[1] * flight);
-    boxes.push_back({each.x + std::min(dx, 0.0F) - wide, each.x + std::max(dx, 0.0F) + wide,
-                     each.y + std::min(dy, 0.0F) - wide, each.y + std::max(dy, 0.0F) + wide});
-    const auto& b = boxes.back();
-    raise(b[0], b[1], b[2], b[3], each.z + crown_top * each.top, each.top);
-    heights_[0] = std::min(heights_[0], each.z);
-    box = bounds_;
-  }
-  spindle_corner_ = {box[0], box[2]};
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    spindle_cells_[axis] =
-        static_cast<std::int64_t>((box[2 * axis + 1] - box[2 * axis]) / spindle_cell) + 1;
-  }
-  const auto cells = static_cast<std::size_t>(spindle_cells_[0] * spindle_cells_[1]);
-  const auto visit = [&](const auto& use) {
-    for (std::uint32_t n = 0; n < boxes.size(); ++n) {
-      const auto cell = [&](float at, std::size_t axis) {
-        return static_cast<std::int64_t>((at - spindle_corner_[axis]) / spindle_cell);
-      };
-      for (auto j = cell(boxes[n][2], 1); j <= cell(boxes[n][3], 1); ++j) {
-        for (auto i = cell(boxes[n][0], 0); i <= cell(boxes[n][1], 0); ++i) {
-          use(static_cast<std::size_t>(j * spindle_cells_[0] + i), n);
-        }
-      }
-    }
-  };
-  starts_.assign(cells + 1, 0);
-  visit([&](std::size_t cell, std::uint32_t) { ++starts_[cell + 1]; });
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    starts_[cell + 1] += starts_[cell];
-  }
-  numbers_.resize(starts_.back());
-  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-  visit([&](std::size_t cell, std::uint32_t n) { numbers_[next[cell]++] = n; });
-}
-
-std::span<const std::uint32_t> FlameTiles::spindles_at(float x, float y) const {
-  if (spindles_.empty()) {
-    return {};
-  }
-  const float i = (x - spindle_corner_[0]) / spindle_cell,
-              j = (y - spindle_corner_[1]) / spindle_cell;
-  if (!(i >= 0.0F && j >= 0.0F && i < static_cast<float>(spindle_cells_[0]) &&
-        j < static_cast<float>(spindle_cells_[1]))) {
-    return {};
-  }
-  const auto cell = static_cast<std::size_t>(static_cast<std::int64_t>(j) * spindle_cells_[0] +
-                                             static_cast<std::int64_t>(i));
-  return std::span(numbers_).subspan(starts_[cell], starts_[cell + 1] - starts_[cell]);
 }
 
 } // namespace firetwin::flames

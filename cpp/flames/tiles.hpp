@@ -2,108 +2,120 @@
 
 #include "base/simd.hpp"
 #include "base/vector.hpp"
+#include "flames/crowns.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace firetwin::flames {
 
-/// Flame length at one time, and the ground, on a square of the ground.
-struct FlameSquare {
-  std::span<const float> length, ground; ///< (rows, columns) m; rows to the north
-  std::array<std::int64_t, 2> shape;     ///< rows and columns
-  std::array<double, 2> corner;          ///< x and y of the first value, m
-  double spacing;                        ///< m
+/// What burns at a node of the ground.
+enum Channel : std::size_t {
+  ground_channel,   ///< elevation, m
+  length_channel,   ///< length of the front's flames, whatever their age, m
+  distance_channel, ///< behind the front, m; negative ahead of it
+  low_channel,      ///< height of the flames that burn behind the front, m
+  share_channel,    ///< share of the ground here that burns, 0 to 1
+  east_channel,     ///< of the direction in which the front moves, a unit vector
+  north_channel,
+  depth_channel, ///< depth of the flaming zone, m
+  channel_count
 };
 
-/// A crown in flames: branches from `base` over its foot, flames up to `top`, radius of the crown.
-struct Spindle {
-  float x, y, z, base, top, radius; ///< m
+using Node = std::array<float, channel_count>;
+using NodeLanes = std::array<Lanes, channel_count>;
+
+/// Squares of the ground of `patch_side` cells where something may burn. Finer ones cover coarser
+/// ones, and nothing burns outside of all.
+struct FlamePatches {
+  std::span<const float> nodes;   ///< (n, side + 1, side + 1, channels), rows to the north
+  std::span<const double> corner; ///< (n, 2) x and y of the first node, m
+  std::span<const double> spacing; ///< (n) m, powers of 2 of the finest
+};
+constexpr std::int64_t patch_side = 32; ///< cells
+
+/// How far flames reach from their foot, in flame lengths.
+struct FlameReach {
+  float ahead, behind, top;
 };
 
-/// Nested squares of flame length, fine to coarse, with bounds on how high flames reach over tiles.
+/// Patches of the ground, with bounds on how high flames reach over tiles of them.
 class FlameTiles {
 public:
-  static constexpr std::int64_t side = 8;   ///< cells along a tile
-  static constexpr float soot_top = 1.9F;   ///< height to which soot reaches, in flame lengths
-  static constexpr float crown_top = 1.3F;  ///< height to which flames of a crown reach, in `top`
-  static constexpr float crown_wide = 1.5F; ///< their greatest radius, in radii of the crown
-  static constexpr float upright = 0.45F;   ///< part of `top` up to which they stand upright
-  static constexpr float lean = 0.8F;       ///< of them above, relative to free flames
+  static constexpr std::int64_t side = 8; ///< cells along a tile
   static constexpr float none = -1.0e9F;
 
-  /// @param squares finest first; all are around the camera
-  /// @param wind speed at which rising gas is carried, m/s, and the constants of its rise
   /// @param origin coordinates of lookups are relative to it, m
   /// @throws std::invalid_argument
-  FlameTiles(std::span<const FlameSquare> squares, std::span<const Spindle> spindles,
-             const std::array<double, 2>& wind, double launch, double acceleration,
-             const Vector& origin);
+  FlameTiles(const FlamePatches& patches, const FlameShape& shape, const FlameReach& reach,
+             const FlameCrowns& crowns, const Vector& origin);
 
-  /// Ground at eight places close together, m; `none` outside of all squares.
-  void ground(const Lanes& x, const Lanes& y, Lanes& out) const;
-  /// Flame length at eight places close together, m; 0 outside.
-  void length(const Lanes& x, const Lanes& y, Lanes& out) const;
-
-  /// Ground at a place, m; `none` outside of all squares.
+  /// Interpolates the ground at eight places; its elevation is `none` outside of all patches.
+  void nodes(const Lanes& x, const Lanes& y, NodeLanes& out) const;
+  /// Ground at a place, m; `none` outside.
   float ground_at(float x, float y) const;
+
   /// Flames whose foot may be near a place.
   struct Roots {
-    float longest; ///< length of the longest flames within their swing, m; 0 outside of all squares
+    float longest; ///< length of the longest flames, m; 0 where nothing burns
     float edge;    ///< distance within which that holds, m
   };
   Roots rooted(float x, float y) const;
-  /// Returns a distance (m) along a ray without flames of crowns; 0 near them.
-  /// @param across cosine of the ray's elevation
-  float spindle_distance(float x, float y, float z, float across) const;
 
   /// Tile around a place.
   struct Tile {
-    float top;                   ///< greatest height of flames and soot, m; `none`: no flames
+    float top;                   ///< greatest height of flames, m; `none`: no flames
     float length;                ///< of the longest flames that reach it, m
     std::array<float, 4> bounds; ///< x from, x to, y from, y to
   };
-  /// Finds the tile at a place; false outside of all squares.
+  /// Finds the tile at a place; false outside of all.
   bool find(float x, float y, Tile& tile) const;
 
-  std::span<const Spindle> spindles() const { return spindles_; }
-  /// Numbers of the spindles that reach a place.
-  std::span<const std::uint32_t> spindles_at(float x, float y) const;
   bool empty() const { return !any_; }
   const std::array<float, 4>& bounds() const { return bounds_; }
   std::array<float, 2> heights() const { return heights_; }
 
 private:
-  struct Level {
-    std::vector<float> length, ground; // (rows, columns)
-    std::int64_t rows, columns, tile_rows, tile_columns;
+  static constexpr std::int64_t tiles_along = patch_side / side;
+  static constexpr std::size_t tile_count = tiles_along * tiles_along;
+  struct Patch {
+    std::vector<Node> nodes;
     float x, y, spacing, inverse;
-    std::array<float, 2> end;        ///< of places inside, m
-    std::vector<float> top, longest; ///< of flames that reach a tile, leaning
-    std::vector<float> rooted; ///< length of the longest flames whose foot is in or near a tile
+    std::array<float, tile_count> top, longest; ///< of flames that reach a tile
+    std::array<float, tile_count> rooted;       ///< of flames whose foot is in or near a tile
 
-    bool contains(float east, float north) const {
-      return east >= x && north >= y && east < end[0] && north < end[1];
-    }
+    bool contains(float east, float north) const;
+    void interpolate(float east, float north, Lanes& out) const;
+    std::size_t tile_at(float east, float north, float& right, float& up) const;
+    Tile tile(std::size_t number) const;
+  };
+  /// Patches of one spacing, by their place.
+  struct Level {
+    double span;                             ///< m
+    std::array<std::int64_t, 2> first, size; ///< in spans: x, y
+    std::vector<std::int32_t> index;         ///< -1: none
+    std::int32_t at(std::int64_t i, std::int64_t j) const;
   };
 
-  const Level* level(float x, float y) const;
-  void interpolate_lanes(std::vector<float> Level::* values, float outside, const Lanes& x,
-                         const Lanes& y, Lanes& out) const;
+  void add_patches(const FlamePatches& patches, const Vector& origin);
+  void list_levels(const FlamePatches& patches);
+  void bound_patches(const FlameShape& shape, const FlameReach& reach);
+  void bound_crowns(const FlameCrowns& crowns);
+  const Patch* patch(float x, float y) const;
+  std::array<std::int64_t, 2> place(float x, float y, double span) const;
+  std::array<float, 4> square(const std::array<std::int64_t, 2>& at, double span) const;
   template <class Function>
-  void visit(float x0, float x1, float y0, float y1, const Function& function);
-  void raise(float x0, float x1, float y0, float y1, float top, float length);
-  void add_square(const FlameSquare& square, const Vector& origin);
-  void bound_tiles(const std::array<double, 2>& wind, double launch, double acceleration);
-  void list_spindles(const std::array<double, 2>& wind, double launch, double acceleration);
+  void visit(const std::array<float, 4>& box, const Function& function);
+  void raise(const std::array<float, 4>& box, float top, float length);
 
-  std::vector<Level> levels_;
-  std::vector<Spindle> spindles_;
-  std::vector<std::uint32_t> starts_, numbers_; // of spindles, by cell of a grid
-  std::array<float, 2> spindle_corner_{};
-  std::array<std::int64_t, 2> spindle_cells_{};
+  Vector origin_;
+  std::vector<Patch> patches_;
+  std::vector<Level> levels_;       ///< finest first
+  float finest_ = 0.0F;             ///< spacing, m
+  std::array<Level, 2> occupied_{}; ///< wide and narrow squares with flames: 0, else -1
   std::array<float, 4> bounds_{};
   std::array<float, 2> heights_{};
   bool any_ = false;

@@ -34,18 +34,21 @@ bool sample(const FlameVolume& flames, const std::array<Lanes, 3>& place, float 
   FlameSamples samples;
   flames.field().evaluate(place[0], place[1], place[2], fine, samples);
   found = FlamePoints{};
+  if (!samples.any()) {
+    return false;
+  }
   bool burns = false;
   const FlameLight& light = flames.light();
   const auto range = static_cast<float>(light.hottest - light.coolest);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const float away = std::hypot(place[0][lane], place[1][lane], place[2][lane]);
-    const float part = samples.flame[lane] * flames.view().share(away);
-    if (part > 0.0F) {
+    const float part = flames.view().share(away);
+    const flames::FlameStep here = flames.step(samples, lane, samples, lane);
+    if (here.flames * part > 0.0F) {
       burns = true;
-      const auto [visible, infrared] = flames.scale(samples.length[lane]);
-      found[0][lane] = light.extinction * visible * part;
-      found[1][lane] = light.infrared * infrared * part;
-      found[2][lane] = static_cast<float>(light.coolest) + range * samples.heat[lane];
+      found[0][lane] = here.flames * part;
+      found[1][lane] = here.infrared * part;
+      found[2][lane] = static_cast<float>(light.coolest) + range * here.heat;
     }
   }
   return burns;
@@ -121,10 +124,9 @@ private:
         if (!flames_.tiles().find(across, along, tile) || tile.top <= FlameTiles::none) {
           continue;
         }
-        Lanes ground;
-        flames_.tiles().ground(Lanes{} + across, Lanes{} + along, ground);
-        if (ground[0] > FlameTiles::none) {
-          low = std::min(low, ground[0] - FlameField::below_ground);
+        const float ground = flames_.tiles().ground_at(across, along);
+        if (ground > FlameTiles::none) {
+          low = std::min(low, ground - FlameField::below_ground);
           high = std::max(high, tile.top);
         }
       }

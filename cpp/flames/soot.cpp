@@ -1,0 +1,42 @@
+#include "flames/soot.hpp"
+
+#include "base/smoothstep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace firetwin::flames {
+namespace {
+
+constexpr float lean_end = 0.3F, lean_full = 0.65F; // Z between which soot burns up
+constexpr float peak = 1.25F, width = 1.2F;         // Z of the most soot, and its spread
+constexpr float rich_soot = 0.4F;                   // share of soot far on the rich side
+constexpr float hottest = 1.1F;                     // Z
+constexpr float lean_cooling = 1.2F, rich_cooling = 0.7F; // of the heat per Z
+constexpr float loss = 0.6F;                              // of the heat at the tips, by radiation
+constexpr float loss_power = 1.3F;
+
+} // namespace
+
+float soot_at(float mixture) {
+  const float away = (mixture - peak) / width;
+  return smoothstep(lean_end, lean_full, mixture) *
+         (rich_soot + (1.0F - rich_soot) * std::exp(-away * away));
+}
+
+float heat_at(float mixture, float height) {
+  const float rich = std::max(mixture - hottest, 0.0F), lean = std::max(hottest - mixture, 0.0F);
+  const float cooled = loss * std::pow(std::max(height, 0.0F), loss_power);
+  return std::clamp(1.0F - rich_cooling * rich - lean_cooling * lean - cooled, 0.0F, 1.0F);
+}
+
+float luminance_at(float heat) {
+  return std::pow(10.0F, luminance_decades * (heat - core_heat));
+}
+
+float heat_of(float luminance) {
+  const float decades = std::log10(std::max(luminance, luminance_at(0.0F)));
+  return std::clamp(core_heat + decades / luminance_decades, 0.0F, 1.0F);
+}
+
+} // namespace firetwin::flames
