@@ -1,6 +1,7 @@
 #include "flames/flames.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "flames/soot.hpp"
 #include "volume/flame_bake.hpp"
 
 #include <pybind11/stl.h>
@@ -97,6 +98,8 @@ volume::VdbSummary write(const std::filesystem::path& path, const FlameVolume& f
 
 void init_flames(Module module) {
   using namespace py::literals;
+  module.attr("CORE_HEAT") = flames::core_heat;
+  module.attr("LUMINANCE_DECADES") = flames::luminance_decades;
   Class<FlameBlock, std::shared_ptr<FlameBlock>>(module, "FlameBlock")
       .def(py::init(&make_block), "codes"_a, "rise"_a, py::kw_only(), "cell"_a, "front"_a,
            "interval"_a, "fade"_a, "wind"_a, "periodic"_a);

@@ -45,7 +45,7 @@ struct CodeTable {
   explicit CodeTable(float height) {
     for (std::size_t code = 0; code < 256; ++code) {
       const float mixture = mixture_of(static_cast<float>(code) / full);
-      extinction[code] = soot_at(mixture);
+      extinction[code] = soot_at(mixture, height);
       light[code] = extinction[code] * luminance_at(heat_at(mixture, height));
     }
   }

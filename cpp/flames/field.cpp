@@ -14,7 +14,6 @@ namespace firetwin::flames {
 namespace {
 
 constexpr float shortest = 0.05F;    // m, length of flames that are drawn
-constexpr float wide_pixels = 1.5F;  // pixels that flames are long at least when they are drawn
 constexpr float segment_length = 3.0F; // flame lengths along the front
 constexpr float overlap = 0.8F;        // part of a segment from which the next one fades in
 constexpr std::array<float, 2> octave_blend{0.4F, 0.6F};  // octaves between rounded lengths
@@ -113,7 +112,7 @@ struct FlameField::Foot {
   Lanes x, y;           ///< m
   NodeLanes node;
   std::array<Lanes, 2> along; ///< unit vector along the front
-  std::vector<Lanes> shares;  ///< of the kinds of lines
+  std::array<Lanes, FlameLibrary::most_kinds> shares; ///< of the kinds of lines
 };
 
 /// Flames along a line at eight points.
@@ -251,7 +250,7 @@ void FlameField::find_foot(const Lanes& x, const Lanes& y, const Lanes& height,
   roots(g * length, speed);
   const Lanes froude = across / speed;
   const auto lines = library_.lines();
-  out.shares.assign(lines.size(), Lanes{});
+  out.shares = {};
   out.shares[0] += 1.0F;
   Lanes held{};
   for (std::size_t kind = 0; kind + 1 < lines.size(); ++kind) {
@@ -301,7 +300,7 @@ void FlameField::add_front(const Foot& foot, const Lanes& height, float size,
   const float cell = library_.lines()[0].front()->scale().cell;
   const BlockLevels levels(size, cell * greatest(drawn * seen));
   out.fine += levels.fine();
-  for (std::size_t kind = 0; kind < foot.shares.size(); ++kind) {
+  for (std::size_t kind = 0; kind < library_.lines().size(); ++kind) {
     const Lanes burning = seen * foot.shares[kind];
     const Line line{foot, away, up, levels, kind, 0};
     for (const Octave& octave : Octaves(drawn, burning)) {

@@ -42,6 +42,7 @@ struct FlameSamples {
 class FlameField {
 public:
   static constexpr float below_ground = 0.5F; ///< m below the map's ground that still burns
+  static constexpr float wide_pixels = 1.5F; ///< least length of drawn flames, pixels
   static constexpr float lean = 0.5F; ///< of flames in wind that their block does not hold (by eye)
 
   /// @param shape wind that carries flames, without `lean`

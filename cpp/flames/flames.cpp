@@ -16,13 +16,15 @@ constexpr float most_step = 0.2F; // of the flame length
 constexpr std::array<float, 2> at_lens{0.4F, 2.0F}; // m, distances up to which flames are left out
 constexpr float thin_flame = 1.0e-4F;               // 1/m, extinction that is left out
 constexpr float thin_gas = 1.0e-3F;                 // code that is left out
+constexpr float typical_path = 0.3F; // way through the sootiest gas of a flame, in its lengths
 constexpr float whole = 0.999F;                     // share from which flames are not thinned out
 
 /// Returns the extinction, 1/m, of flames that fill a share of their drawn length: it lets as much
 /// light through as the part of the pixel beside them does.
 float thinned(float extinction, float length, float drawn, float share) {
   const float covered = share * length / drawn;
-  return -std::log(1.0F - covered * (1.0F - std::exp(-extinction * length))) / drawn;
+  const float through = std::exp(-extinction * length * typical_path);
+  return -std::log(1.0F - covered * (1.0F - through)) / (typical_path * drawn);
 }
 
 } // namespace
@@ -39,7 +41,8 @@ FlameVolume::FlameVolume(const FlamePatches& patches, std::span<const Spindle> c
              {{FlameField::lean * shape.wind[0], FlameField::lean * shape.wind[1]},
               shape.launch,
               shape.acceleration},
-             {library_->ahead(), library_->behind(), library_->top()}, crowns_, origin),
+             {library_->ahead(), library_->behind(), library_->top(),
+              FlameField::wide_pixels * view.pixel}, crowns_, origin),
       field_(tiles_, crowns_, *library_, shape, origin, time) {
   if (light_.extinction.empty()) {
     throw std::invalid_argument("extinction needs a row");
@@ -113,7 +116,8 @@ FlameStep FlameVolume::step(const FlameSamples& before, std::size_t first,
     out.infrared += infrared * flame;
     hot += infrared * warm;
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      light[channel] += visible * (glow[channel] + soot * light_.soot_light[channel]);
+      light[channel] +=
+          visible * (glow[channel] + (flame + soot) * light_.soot_light[channel]);
     }
   }
   if (out.extinction > 0.0F) {

@@ -9,8 +9,9 @@ namespace firetwin::flames {
 FlameLibrary::FlameLibrary(std::vector<Kind> lines, Kind crowns)
     : lines_(std::move(lines)), crowns_(std::move(crowns)) {
   const auto is_empty = [](const Kind& kind) { return kind.empty(); };
-  if (lines_.empty() || crowns_.empty() || std::any_of(lines_.begin(), lines_.end(), is_empty)) {
-    throw std::invalid_argument("a library needs blocks of lines and of crowns");
+  if (lines_.empty() || lines_.size() > most_kinds || crowns_.empty() ||
+      std::any_of(lines_.begin(), lines_.end(), is_empty)) {
+    throw std::invalid_argument("a library needs blocks of crowns, and of one to four kinds of lines");
   }
   float wind = -1.0F;
   for (const Kind& kind : lines_) {

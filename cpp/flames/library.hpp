@@ -14,6 +14,7 @@ namespace firetwin::flames {
 /// Each kind has some blocks that differ by the seed of their eddies.
 class FlameLibrary {
 public:
+  static constexpr std::size_t most_kinds = 4; ///< of lines
   /// Part of the way from one wind to the next at which flames change from one kind to the other.
   static constexpr std::array<float, 2> change{0.35F, 0.75F};
   using Kind = std::vector<std::shared_ptr<const FlameBlock>>;

@@ -3,6 +3,7 @@
 #include "base/smoothstep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace firetwin::flames {
@@ -13,14 +14,18 @@ constexpr float peak = 1.25F, width = 1.2F;         // Z of the most soot, and i
 constexpr float rich_soot = 0.4F;                   // share of soot far on the rich side
 constexpr float hottest = 1.1F;                     // Z
 constexpr float lean_cooling = 1.2F, rich_cooling = 0.7F; // of the heat per Z
+constexpr float burnout = 0.8F;               // share of the lean soot that is gone over the tips
+constexpr std::array<float, 2> tips{0.8F, 1.4F}; // heights between which it goes
 constexpr float loss = 0.6F;                              // of the heat at the tips, by radiation
 constexpr float loss_power = 1.3F;
 
 } // namespace
 
-float soot_at(float mixture) {
+float soot_at(float mixture, float height) {
   const float away = (mixture - peak) / width;
-  return smoothstep(lean_end, lean_full, mixture) *
+  const float burned = burnout * smoothstep(tips[0], tips[1], height) *
+                       (1.0F - smoothstep(lean_full, hottest, mixture));
+  return (1.0F - burned) * smoothstep(lean_end, lean_full, mixture) *
          (rich_soot + (1.0F - rich_soot) * std::exp(-away * away));
 }
 

@@ -22,8 +22,9 @@ inline float mixture_of(float code) {
   return richest * code * code;
 }
 
-/// Returns the extinction by soot at a Z, relative to a flame's greatest.
-float soot_at(float mixture);
+/// Returns the extinction by soot at a Z and a height in flame lengths, relative to a flame's
+/// greatest.
+float soot_at(float mixture, float height);
 
 /// Returns the heat, 0 to 1, at a Z and a height in flame lengths.
 float heat_at(float mixture, float height);

@@ -11,7 +11,7 @@ namespace {
 
 /// Z between which cooled soot is left over flames, and heights at which it begins (by eye).
 constexpr std::array<float, 4> sooty{0.25F, 0.5F, 0.75F, 1.0F};
-constexpr std::array<float, 2> tips{0.45F, 1.0F};
+constexpr std::array<float, 2> soot_heights{0.45F, 1.0F};
 constexpr float least_range = 1.0e-3F; // of codes: closer ones count as equal
 
 } // namespace
@@ -22,18 +22,18 @@ FlameTable::FlameTable(std::span<const std::array<float, 3>> visible)
   for (std::size_t row = 0; row < heights; ++row) {
     const float height =
         tallest * static_cast<float>(row) / static_cast<float>(heights - 1);
-    const float over = smoothstep(tips[0], tips[1], height);
+    const float over = smoothstep(soot_heights[0], soot_heights[1], height);
     Lanes sum{}, before{};
     for (std::size_t n = 0; n < codes; ++n) {
       const float mixture = mixture_of(static_cast<float>(n) / last);
-      const float soot = soot_at(mixture), heat = heat_at(mixture, height);
+      const float soot = soot_at(mixture, height), heat = heat_at(mixture, height);
       const auto [red, green, blue] = radiance(heat);
       const float cool = over * smoothstep(sooty[0], sooty[1], mixture) *
                          (1.0F - smoothstep(sooty[2], sooty[3], mixture));
       const Lanes now{soot, soot * heat, soot * red, soot * green, soot * blue, cool, 0.0F, 0.0F};
       sum += n == 0 ? Lanes{} : (before + now) * (0.5F / last);
       before = now;
-      rows_[row].push_back(sum);
+      store(sum, rows_[row].emplace_back().data());
     }
   }
 }
@@ -66,7 +66,10 @@ FlameOptics FlameTable::between(float first, float second, float height) const {
   const auto sum = [last](const Row& of, float code, Lanes& out) {
     const float place = std::min(code * last, last - 1.0e-3F);
     const auto n = static_cast<std::size_t>(place);
-    out = of[n] + (of[n + 1] - of[n]) * (place - static_cast<float>(n));
+    Lanes next;
+    load(of[n].data(), out);
+    load(of[n + 1].data(), next);
+    out += (next - out) * (place - static_cast<float>(n));
   };
   Lanes near[2], far[2];
   sum(rows_[row], low, near[0]);

@@ -33,7 +33,8 @@ public:
 private:
   static constexpr std::size_t codes = 513, heights = 13;
   static constexpr float tallest = 1.6F; ///< height of the last row, flame lengths
-  using Row = std::vector<Lanes>;        ///< sums over codes: extinction, hot, light, soot
+  /// Sums over codes: extinction, hot, light, soot.
+  using Row = std::vector<std::array<float, lane_count>>;
 
   std::vector<std::array<float, 3>> visible_;
   std::array<Row, heights> rows_;

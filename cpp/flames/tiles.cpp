@@ -35,11 +35,20 @@ struct TileFlames {
     ground = std::max(ground, node[ground_channel]);
     lowest = std::min(lowest, node[ground_channel]);
   }
-  float longest(const FlameReach& reach) const {
-    const bool burns = nearest < reach.behind * front && farthest > -reach.ahead * front;
-    return std::max(burns ? front : 0.0F, low);
+  /// @param least drawn length of the shortest flames, m
+  float longest(const FlameReach& reach, float least) const {
+    const float drawn = front > 0.0F ? std::max(front, least) : 0.0F;
+    const bool burns = nearest < reach.behind * drawn && farthest > -reach.ahead * drawn;
+    return std::max(burns ? drawn : 0.0F, low > 0.0F ? std::max(low, least) : 0.0F);
   }
 };
+
+/// Distance of the farthest corner of a rectangle from the origin, m.
+float farthest_corner(const std::array<float, 4>& box, float height) {
+  const float x = std::max(std::abs(box[0]), std::abs(box[1])),
+              y = std::max(std::abs(box[2]), std::abs(box[3]));
+  return std::sqrt(x * x + y * y + height * height);
+}
 
 } // namespace
 
@@ -338,7 +347,8 @@ void FlameTiles::bound_patches(const FlameShape& shape, const FlameReach& reach)
           flames.add(each.nodes[i * patch_nodes + j]);
         }
       }
-      const float longest = flames.longest(reach);
+      const auto box = each.tile(tile).bounds;
+      const float longest = flames.longest(reach, reach.least * farthest_corner(box, flames.lowest));
       if (longest <= 0.0F) {
         continue;
       }
@@ -347,7 +357,6 @@ void FlameTiles::bound_patches(const FlameShape& shape, const FlameReach& reach)
       const float high = reach.top * longest, flight = shape.flight_to(high);
       const float dx = static_cast<float>(shape.wind[0]) * flight,
                   dy = static_cast<float>(shape.wind[1]) * flight;
-      const auto box = each.tile(tile).bounds;
       raise({box[0] + std::min(dx, 0.0F), box[1] + std::max(dx, 0.0F), box[2] + std::min(dy, 0.0F),
              box[3] + std::max(dy, 0.0F)},
             flames.ground + high, longest);

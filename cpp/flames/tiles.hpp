@@ -37,9 +37,10 @@ struct FlamePatches {
 };
 constexpr std::int64_t patch_side = 32; ///< cells
 
-/// How far flames reach from their foot, in flame lengths.
+/// How far flames reach from their foot, in drawn lengths.
 struct FlameReach {
   float ahead, behind, top;
+  float least; ///< drawn length per distance from the origin, m/m
 };
 
 /// Patches of the ground, with bounds on how high flames reach over tiles of them.

@@ -12,7 +12,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 from firetwin_core import volume
-from firetwin_core.flames import FlameVolume, write_flames
+from firetwin_core.flames import CORE_HEAT, LUMINANCE_DECADES, FlameVolume, write_flames
 
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
@@ -118,7 +118,7 @@ def build_material(shot: Shot, stage: Stage) -> bpy.types.Material:
     kelvin = tree.attribute("temperature")
     heat = kelvin.ramp(low, high)
     low_green, more, bend = flame_volume.GREEN
-    exponent = (heat - flame_volume.CORE_HEAT) * (flame_volume.DECADES * float(np.log(10.0)))
+    exponent = (heat - CORE_HEAT) * (LUMINANCE_DECADES * float(np.log(10.0)))
     colour = tree.combine(1.0, low_green + more * heat.power(bend), 0.0)
     visible = tree.emission(colour, exponent.exp() * core * density)
     black = {"Color": (0.0, 0.0, 0.0)}

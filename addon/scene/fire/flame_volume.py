@@ -6,18 +6,18 @@ The hottest soot sets a flame's brightness in a picture, and saturates any camer
 orange rim to a yellow-white core. Blue is slightly below 0, as colours of black bodies are outside of sRGB.
 
 The heat that sets the colour sets the temperature too: 960 K in the coolest part to 1400 K in the hottest.
-The infrared extinction by flame length (`SCALES`) makes the power that flames radiate `RADIATED` of the
-fireline intensity. The heat account of the smoke leaves 0.3 for radiation, which includes the glowing ground.
+The infrared extinction by flame length makes the power that flames radiate `RADIATED` of the fireline
+intensity. The heat account of the smoke leaves 0.3 for radiation, which includes the glowing ground.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from firetwin_core.flames import FlameLight, FlameShape, FlameVolume
+from firetwin_core.flames import CORE_HEAT, LUMINANCE_DECADES, FlameLight, FlameShape, FlameVolume
 from numpy.typing import NDArray
 
 from ...shot.cameras.path import Path
-from ...shot.fire import flame_clock, flame_map
+from ...shot.fire import flame_clock, flame_library, flame_map
 from ...shot.light import exposure, sky
 from ...shot.shot import Shot
 from ...shot.terrain import noise
@@ -26,22 +26,16 @@ from . import flames
 
 RADIATED = 0.12  # of the heat of combustion is radiated by flames (Freeborn et al. 2008: 12 +- 3 %)
 KELVIN = (960.0, 1400.0)  # K at heat 0 and 1
-SCALES = (
-    (0.5, 3.0, 0.68),
-    (1.8, 3.4, 0.62),
-    (5.0, 1.8, 0.48),
-    (18.0, 1.1, 0.65),
-    (30.0, 1.0, 1.5),
-)
-"""Flame length, m, and factors on the extinction: visible (by eye), infrared (by power, see test_flames)."""
-_CORE = 6.0  # luminance of the core times 2^exposure (by eye)
-_LUMINANCE = (0.4, 2.0)  # its bounds, units of the scene
-CORE_HEAT, DECADES = 0.75, 2.3  # heat of the core; decades between the luminance of heat 0 and 1
-GREEN = 0.04, 0.68, 1.3  # green over red: at heat 0, increase, and its exponent
+THICKNESS = 10.0  # visible optical depth of the sootiest gas over a flame length (by eye)
+_OPAQUE = 3.0  # 1/m, most of the visible extinction: small flames are thinner (by eye)
+INFRARED = ((0.5, 0.41), (1.8, 0.37), (5.0, 0.29), (18.0, 0.39), (30.0, 0.9))
+"""Flame length, m, and infrared extinction of the sootiest gas, 1/m (by power, see test_flames)."""
+_CORE = 2.5  # luminance of the core times 2^exposure (by eye)
+_LUMINANCE = (0.2, 0.8)  # its bounds, units of the scene
+GREEN = 0.04, 0.66, 1.5  # green over red: at heat 0, increase, and its exponent
 _ROWS = 33
-EXTINCTION = 0.8  # 1/m, visible
-_SOOT = 0.15  # of it, in the cooled soot (by eye)
-INFRARED = infrared.FLAME
+_LENGTHS = 0.2, 100.0  # m
+_SOOT = 0.05  # extinction of cooled soot over the flames, over a flame's (by eye)
 _ALBEDO = 0.1  # of fresh soot, which dims its own light (assumed)
 _BASE = 0.22  # of burning crowns, in tree heights (assumed)
 _RADIUS = 0.36  # of burning crowns, over the width of their flames (assumed)
@@ -78,16 +72,18 @@ def build(
     lens = None
     if not all_around:
         lens = flame_map.ViewCone(path.rotation[frame - 1], tuple(path.halves[frame - 1]))
-    squares = flame_map.squares(shot, eye, time, limit, lens)
+    pixel = 2.0 * path.halves[frame - 1][0] / (columns or path.width)
+    patches = flame_map.patches(shot, eye, time, limit, pixel, lens)
     crowns = spindles(torches, time, eye) if torches is not None else np.empty((0, 6))
-    if not len(crowns) and not any(square.length.any() for square in squares):
+    if not len(crowns) and not len(patches.spacings):
         return None
     return FlameVolume(
-        squares=[(square.length, square.ground, square.corner, square.spacing) for square in squares],
+        patches=(patches.nodes, patches.corners, patches.spacings),
         spindles=crowns,
+        library=flame_library.library(),
         shape=FlameShape(wind=flame_map.carrying_wind(shot)),
         light=light(shot, frame, float(eye[2])),
-        pixel=2.0 * path.halves[frame - 1][0] / (columns or path.width),
+        pixel=pixel,
         fade=[part * limit for part in flame_map.FADE],
         origin=eye,
         time=flame_clock.time(shot.frames, time),
@@ -101,15 +97,20 @@ def light(shot: Shot, frame: int, height: float) -> FlameLight:
     sun = state.power * np.array(state.colour) / (4.0 * np.pi)
     return FlameLight(
         visible=visible(core_luminance(stops)),
-        extinction=EXTINCTION,
-        soot=_SOOT * EXTINCTION,
+        soot=_SOOT,
         soot_light=_ALBEDO * (state.around + sun),
         coolest=KELVIN[0],
         hottest=KELVIN[1],
-        scales=SCALES,
-        infrared=INFRARED,
+        extinction=extinctions(),
         dim=infrared.air_depth(shot, height),
     )
+
+
+def extinctions() -> Array:
+    """Return rows (n, 3) of flame length, m, and visible and infrared extinction, 1/m."""
+    length = np.geomspace(_LENGTHS[0], _LENGTHS[1], _ROWS)
+    visible = np.minimum(THICKNESS / length, _OPAQUE)
+    return np.column_stack([length, visible, np.interp(length, *np.transpose(INFRARED))])
 
 
 def core_luminance(stops: float) -> float:
@@ -121,9 +122,10 @@ def visible(core: float) -> Array:
     """Return the radiance (n, 3) at evenly spaced heats, for a luminance of the core."""
     heat = np.linspace(0.0, 1.0, _ROWS)
     colour = np.stack(
-        [np.ones(_ROWS), GREEN[0] + GREEN[1] * heat ** GREEN[2], -0.08 * (1.0 - heat**3)], axis=-1
+        [np.ones(_ROWS), GREEN[0] + GREEN[1] * heat ** GREEN[2], -0.06 * (1.0 - heat**3) + 0.03 * heat**4],
+        axis=-1,
     )
-    return (core * 10.0 ** (DECADES * (heat - CORE_HEAT)))[:, None] * colour
+    return (core * 10.0 ** (LUMINANCE_DECADES * (heat - CORE_HEAT)))[:, None] * colour
 
 
 def spindles(torches: flames.Points, time: float, eye: Array) -> Array:

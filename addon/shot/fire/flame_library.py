@@ -16,6 +16,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from firetwin_core.flames import FlameBlock as CoreBlock
+from firetwin_core.flames import FlameLibrary
 from numpy.typing import NDArray
 
 from ...data.flames import FOLDER
@@ -67,6 +69,19 @@ def load(kind: str, seed: int = 1) -> FlameBlock:
         If the file is missing, damaged or larger than a block can be.
     """
     return read(Path(FOLDER) / f"{kind}_{seed}.npz")
+
+
+@lru_cache(maxsize=1)
+def library() -> FlameLibrary:
+    """Return the library of all blocks, for `FlameVolume`."""
+    *lines, crowns = ([_core_block(kind, seed) for seed in SEEDS] for kind in KINDS)
+    return FlameLibrary(lines, crowns)
+
+
+def _core_block(kind: str, seed: int) -> CoreBlock:
+    block = load(kind, seed)
+    scale = {name: getattr(block, name) for name in ("cell", "front", "interval", "fade", "wind")}
+    return CoreBlock(block.codes, block.rise, **scale, periodic=kind != "crown")
 
 
 def read(path: Path) -> FlameBlock:

@@ -1,4 +1,4 @@
-"""Flames as volumes: field of flames, samples, and OpenVDB files."""
+"""Flames as volumes: library of solved flames, field, samples, and OpenVDB files."""
 
 from collections.abc import Mapping, Sequence
 from os import PathLike
@@ -8,36 +8,70 @@ from numpy.typing import ArrayLike, NDArray
 
 from .volume import VdbSummary
 
-class FlameShape:
-    """Shape of flames; the numbers are chosen by eye."""
+CORE_HEAT: float
+"""Heat at which the luminance of flames is 1."""
+LUMINANCE_DECADES: float
+"""Decades between the luminance at heat 0 and at heat 1."""
+
+class FlameBlock:
+    """Solved fire: its mixture fraction, frame by frame. Lengths are over the flame length L, times over
+    sqrt(L / g)."""
 
     def __init__(
         self,
+        codes: ArrayLike,
+        rise: ArrayLike,
         *,
-        wind: Sequence[float],
-        fill: float = 0.9,
-        taper: float = 0.95,
-        ragged: float = 2.3,
-        edge: float = 0.22,
-        roll: float = 0.17,
-        broken: float = 0.6,
+        cell: float,
+        front: float,
+        interval: float,
+        fade: int,
+        wind: float,
+        periodic: bool,
     ) -> None:
-        """Set all parameters.
+        """Copy a block.
 
         Parameters
         ----------
+        codes
+            (frames, up, along, across) uint8, 255 sqrt(Z / 4): Z is the mixture fraction over the
+            stoichiometric one.
+        rise
+            (up) mean speed of hot gas over sqrt(g L).
+        cell
+            Edge of a cell.
+        front
+            Place across the front of its leading edge, from the first cell's face.
+        interval, fade
+            Time between frames, and number of last frames that fade into the first ones.
         wind
-            Speed at which rising gas is carried, m/s east and north.
-        fill, taper, ragged
-            Value at the foot of a flame (it burns above 0), its decrease over the flame's length, and the
-            strength of the noise.
-        edge
-            Values from 0 over which a flame becomes opaque.
-        roll
-            Displacement by eddies relative to their size.
-        broken
-            Strength of gaps at the foot, where fuel is gone.
+            Wind across the front over sqrt(g L).
+        periodic
+            Along the front; else nothing burns beyond the sides.
+
+        Raises
+        ------
+        ValueError
+            Shapes do not match, or there are fewer than two frames or cells along an axis.
         """
+
+class FlameLibrary:
+    """Solved fires: lines by wind, and crowns, with some blocks of each."""
+
+    def __init__(self, lines: Sequence[Sequence[FlameBlock]], crowns: Sequence[FlameBlock]) -> None:
+        """Set the blocks of each kind of line, from the calmest to the strongest wind, and of crowns.
+
+        Raises
+        ------
+        ValueError
+            A kind is empty, or lines are not sorted by wind.
+        """
+
+class FlameShape:
+    """Wind that carries flames."""
+
+    def __init__(self, *, wind: Sequence[float]) -> None:
+        """Set the wind at the flames, m/s east and north."""
 
 class FlameLight:
     """Light and temperature of flames by heat: 0 in the coolest part, 1 in the hottest."""
@@ -46,13 +80,11 @@ class FlameLight:
         self,
         *,
         visible: ArrayLike,
-        extinction: float,
         soot: float,
         soot_light: Sequence[float],
         coolest: float,
         hottest: float,
-        scales: Sequence[Sequence[float]],
-        infrared: float,
+        extinction: Sequence[Sequence[float]],
         dim: float,
     ) -> None:
         """Set all parameters.
@@ -61,17 +93,15 @@ class FlameLight:
         ----------
         visible
             (n, 3) radiance at evenly spaced heats.
-        extinction, soot
-            Extinction of flames, and of the cooled soot over them, 1/m.
+        soot
+            Extinction of cooled soot over the flames, over a flame's.
         soot_light
             (3,) radiance of soot per unit of optical depth.
         coolest, hottest
             Temperatures at heat 0 and 1, K.
-        scales
-            (k, 3) flame lengths, m, with factors on the visible and the infrared extinction of flames; linear
+        extinction
+            (k, 3) flame lengths, m, with the visible and the infrared extinction of the sootiest gas, 1/m; linear
             between, constant outside.
-        infrared
-            Infrared extinction of flames, 1/m.
         dim
             Optical depth of 1 km of air in the infrared; it grows with the distance to the power 0.75.
         """
@@ -82,8 +112,9 @@ class FlameVolume:
     def __init__(
         self,
         *,
-        squares: Sequence[tuple[ArrayLike, ArrayLike, Sequence[float], float]],
+        patches: tuple[ArrayLike, ArrayLike, ArrayLike],
         spindles: ArrayLike,
+        library: FlameLibrary,
         shape: FlameShape,
         light: FlameLight,
         pixel: float,
@@ -95,10 +126,12 @@ class FlameVolume:
 
         Parameters
         ----------
-        squares
-            Nested squares, finest first: (rows, columns) flame length and height of the ground, m, x and y of
-            the first value, and the distance between values, m. Rows run north. A place takes the first
-            square that contains it; nothing burns outside.
+        patches
+            Nodes (n, 33, 33, 8), corners (n, 2) and spacings (n) of squares of the ground, m. A place takes the
+            finest patch that contains it; nothing burns outside. Rows of nodes run north. Channels: elevation;
+            length of the front's flames, m; distance behind the front, m; height of low flames behind it, m;
+            burning share of the ground; east and north of the direction in which the front moves; depth of the
+            flaming zone, m.
         spindles
             (n, 6) crowns in flames: x, y and z of the foot, heights of their base and top, and radius, m.
         pixel
@@ -113,13 +146,13 @@ class FlameVolume:
         Raises
         ------
         ValueError
-            Shapes do not match.
+            Shapes do not match, a spacing is not positive, or patches are too far apart.
         """
 
     def sample(self, points: ArrayLike, fine: float = 0.0) -> NDArray[np.float32]:
         """Return extinction (1/m), visible and infrared, and temperature (K) at points (n, 3): (n, 3).
 
-        All are 0 without flames. Eddies smaller than `fine` (m) are left out. Flames fade out with the
+        All are 0 without flames. Detail smaller than `fine` (m) is averaged. Flames fade out with the
         distance from the origin. Cooled soot over the flames is not included.
         """
 
