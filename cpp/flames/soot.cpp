@@ -14,8 +14,8 @@ constexpr float peak = 1.25F, width = 1.2F;         // Z of the most soot, and i
 constexpr float rich_soot = 0.4F;                   // share of soot far on the rich side
 constexpr float hottest = 1.1F;                     // Z
 constexpr float lean_cooling = 1.2F, rich_cooling = 0.7F; // of the heat per Z
-constexpr float burnout = 0.8F;               // share of the lean soot that is gone over the tips
-constexpr std::array<float, 2> tips{0.8F, 1.4F}; // heights between which it goes
+constexpr float burnout = 0.9F;               // share of the lean soot that is gone over the tips
+constexpr std::array<float, 2> tips{0.6F, 1.2F}; // heights between which it goes
 constexpr float loss = 0.6F;                              // of the heat at the tips, by radiation
 constexpr float loss_power = 1.3F;
 
