@@ -99,7 +99,7 @@ volume::VdbSummary write(const std::filesystem::path& path, const FlameVolume& f
 void init_flames(Module module) {
   using namespace py::literals;
   module.attr("CORE_HEAT") = flames::core_heat;
-  module.attr("LUMINANCE_DECADES") = flames::luminance_decades;
+  module.attr("LUMINANCE_DECADES") = py::make_tuple(flames::dim_decades, flames::bright_decades);
   Class<FlameBlock, std::shared_ptr<FlameBlock>>(module, "FlameBlock")
       .def(py::init(&make_block), "codes"_a, "rise"_a, py::kw_only(), "cell"_a, "front"_a,
            "interval"_a, "fade"_a, "wind"_a, "periodic"_a);

@@ -220,7 +220,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
                           FlameSamples& out) const {
   out = {};
   NodeLanes node;
-  tiles_.nodes(x, y, node);
+  tiles_.ends(x, y, node);
   Lanes height = z - node[ground_channel];
   const auto buried = height < -below_ground || height > 1.0e6F;
   height = height < 0.0F ? Lanes{} : height;

@@ -26,7 +26,11 @@ struct GasLanes {
 /// Gas at eight points, of three kinds that overlap.
 struct FlameSamples {
   static constexpr std::size_t kinds = 3; ///< front, low flames behind it, crowns
+  using Codes = std::array<float, kinds>;
   std::array<GasLanes, kinds> gas;
+  Codes codes(std::size_t lane) const {
+    return {gas[0].code[lane], gas[1].code[lane], gas[2].code[lane]};
+  }
   bool any() const { return gas[0].any || gas[1].any || gas[2].any; }
 };
 

@@ -10,7 +10,7 @@ namespace firetwin::flames {
 namespace {
 
 constexpr float least_step = 0.015F; // m
-constexpr float step_cells = 1.0F;   // cells of the solved flames; 1.4 shows dots at edges (by eye)
+constexpr float fine_step = 0.028F;  // of the flame length; 0.035 shows dots at edges (by eye)
 constexpr float step_pixels = 0.7F;
 constexpr float most_step = 0.2F; // of the flame length
 constexpr std::array<float, 2> at_lens{0.4F, 2.0F}; // m, distances up to which flames are left out
@@ -49,10 +49,6 @@ FlameVolume::FlameVolume(const FlamePatches& patches, std::span<const Spindle> c
   }
 }
 
-float FlameVolume::cell() const {
-  return library_->lines().front().front()->scale().cell;
-}
-
 /// Returns the visible and the infrared extinction, 1/m.
 std::array<float, 2> FlameVolume::extinction(float length, float drawn, float share) const {
   const auto& rows = light_.extinction;
@@ -72,24 +68,19 @@ std::array<float, 2> FlameVolume::extinction(float length, float drawn, float sh
   return out;
 }
 
-FlameStep FlameVolume::step(const FlameSamples& before, std::size_t first,
-                            const FlameSamples& after, std::size_t second) const {
+FlameStep FlameVolume::step(const FlameSamples::Codes& before, const FlameSamples& samples,
+                            std::size_t lane) const {
   FlameStep out;
   std::array<float, 3> light{};
   float hot = 0.0F;
   for (std::size_t kind = 0; kind < FlameSamples::kinds; ++kind) {
-    const GasLanes& gas = after.gas[kind];
-    const GasLanes& last = before.gas[kind];
-    if (!gas.any && !last.any) {
+    const GasLanes& of = samples.gas[kind];
+    if (!of.any || of.length[lane] <= 0.0F) {
       continue;
     }
-    const bool lit = gas.any && gas.length[second] > 0.0F;
-    const GasLanes& of = lit ? gas : last;
-    const std::size_t lane = lit ? second : first;
-    const float fine = of.fine[lane], code = gas.any ? gas.code[second] : 0.0F,
-                old = last.any ? last.code[first] : 0.0F;
-    const float coarse = gas.any ? gas.coarse.extinction[second] : 0.0F;
-    if (of.length[lane] <= 0.0F || (std::max(code, old) * fine < thin_gas && coarse < thin_gas)) {
+    const float fine = of.fine[lane], code = of.code[lane], old = before[kind];
+    const float coarse = of.coarse.extinction[lane];
+    if (std::max(code, old) * fine < thin_gas && coarse < thin_gas) {
       continue;
     }
     const auto [visible, infrared] =
@@ -102,7 +93,7 @@ FlameStep FlameVolume::step(const FlameSamples& before, std::size_t first,
     std::array<float, 3> glow{fine * optics.light[0], fine * optics.light[1],
                               fine * optics.light[2]};
     if (coarse > 0.0F) {
-      const float part = gas.coarse.hot[second];
+      const float part = of.coarse.hot[lane];
       const auto colour = table_.radiance(part / coarse);
       flame += coarse;
       warm += part;
@@ -209,7 +200,7 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
 
 float FlameRay::step_at(const FlameTiles::Tile& tile, float limit) const {
   const float pixel = step_pixels * flames_.view().pixel * at_;
-  const float size = std::max(step_cells * flames_.cell() * tile.length, least_step);
+  const float size = std::max(fine_step * tile.length, least_step);
   const float step = std::clamp(pixel, size, std::max(most_step * tile.length, size));
   return std::min(step, (limit - at_) / static_cast<float>(lane_count) + 1.0e-6F);
 }
@@ -227,14 +218,14 @@ void FlameRay::fill(float from, float step, FlameSlab& slab) {
   flames_.field().evaluate(start_[0] + direction_[0] * away, start_[1] + direction_[1] * away,
                            start_[2] + direction_[2] * away, view.pixel * away[lane_count / 2],
                            samples);
-  const bool joined = before_at_ == from;
+  if (before_at_ != from) {
+    before_ = samples.codes(0);
+  }
   before_at_ = slab.to;
-  if (samples.any() || (joined && before_.any())) {
+  if (samples.any()) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const bool start = lane == 0 && !joined;
-      const FlameSamples& before = lane > 0 || start ? samples : before_;
-      const std::size_t last = lane > 0 ? lane - 1 : start ? 0 : lane_count - 1;
-      FlameStep found = flames_.step(before, last, samples, lane);
+      const FlameStep found =
+          flames_.step(lane > 0 ? samples.codes(lane - 1) : before_, samples, lane);
       const float part = view.share(away[lane] - 0.5F * step);
       if (found.extinction * part <= thin_flame) {
         continue;
@@ -256,7 +247,7 @@ void FlameRay::fill(float from, float step, FlameSlab& slab) {
       }
     }
   }
-  before_ = samples;
+  before_ = samples.codes(lane_count - 1);
   if (slab.infrared > 0.0F) {
     const float far = 0.001F * away[lane_count / 2];
     slab.infrared *= std::exp(-light.dim * std::sqrt(far * std::sqrt(far)));

@@ -54,11 +54,11 @@ public:
   const FlameLight& light() const { return light_; }
   const FlameView& view() const { return view_; }
   const Vector& origin() const { return origin_; }
-  float cell() const; ///< of the solved flames, in flame lengths
 
-  /// Computes a step between the gas of two lanes.
-  FlameStep step(const FlameSamples& before, std::size_t first, const FlameSamples& after,
-                 std::size_t second) const;
+  /// Computes a step that ends at a lane.
+  /// @param before codes of each kind of gas at its start
+  FlameStep step(const FlameSamples::Codes& before, const FlameSamples& samples,
+                 std::size_t lane) const;
 
 private:
   std::array<float, 2> extinction(float length, float drawn, float share) const;
@@ -107,8 +107,8 @@ private:
   const BandRadiance* band_;
   std::array<float, 3> start_, direction_;
   float at_, end_;
-  FlameSamples before_;     ///< at the end of the last slab, in its last lane
-  float before_at_ = -1.0F; ///< m
+  FlameSamples::Codes before_{}; ///< at the end of the last slab
+  float before_at_ = -1.0F;      ///< m
 };
 
 } // namespace firetwin::flames

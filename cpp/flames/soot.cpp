@@ -36,12 +36,15 @@ float heat_at(float mixture, float height) {
 }
 
 float luminance_at(float heat) {
-  return std::pow(10.0F, luminance_decades * (heat - core_heat));
+  const float over = heat - core_heat;
+  return std::pow(10.0F, std::min(dim_decades * over, bright_decades * over));
 }
 
 float heat_of(float luminance) {
   const float decades = std::log10(std::max(luminance, luminance_at(0.0F)));
-  return std::clamp(core_heat + decades / luminance_decades, 0.0F, 1.0F);
+  const float over = decades > 0.0F ? decades / bright_decades
+                                                                  : decades / dim_decades;
+  return std::clamp(core_heat + over, 0.0F, 1.0F);
 }
 
 } // namespace firetwin::flames

@@ -10,9 +10,10 @@ namespace firetwin::flames {
 /// left at the tips. Gas is hottest near Z = 1 (fast chemistry) and cools with height as soot
 /// radiates. Widths and slopes are by eye; they set colours, not power (see `FlameLight`).
 
-/// Decades between the luminance at heat 0 and at heat 1.
-constexpr float luminance_decades = 3.4F;
 constexpr float core_heat = 0.75F; ///< heat at which the luminance is 1
+/// Decades of luminance in a unit of heat, below and above the core: hotter parts of a flame are
+/// all but white in a picture, and would have no structure.
+constexpr float dim_decades = 3.4F, bright_decades = 1.2F;
 
 /// Largest mixture fraction that is stored, over the stoichiometric one.
 constexpr float richest = 4.0F;

@@ -1,5 +1,7 @@
 #include "flames/tiles.hpp"
 
+#include "base/clones.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -14,6 +16,7 @@ constexpr std::int64_t patch_nodes = patch_side + 1;
 constexpr std::array<double, 2> squares{1024.0, 128.0}; // m, that are skipped at once if empty
 constexpr double most_squares = 1.0e7;
 constexpr float past_edge = 0.05F;      // tiles by which steps may enter one with flames
+constexpr float few_cells = 4.0F; // over which the ground is as good as straight
 constexpr float beside_patches = 16.0F; // m, step where only crowns may burn
 constexpr float below_front = 50.0F;  // m, depth to which ground is searched below a tile's
 constexpr float no_end = std::numeric_limits<float>::max();
@@ -57,7 +60,7 @@ bool FlameTiles::Patch::contains(float east, float north) const {
   return east >= x && north >= y && east < x + wide && north < y + wide;
 }
 
-void FlameTiles::Patch::interpolate(float east, float north, Lanes& out) const {
+__attribute__((always_inline)) inline void FlameTiles::Patch::interpolate(float east, float north, Lanes& out) const {
   constexpr float last = static_cast<float>(patch_side) - 0.001F;
   const float column = std::clamp((east - x) * inverse, 0.0F, last),
               row = std::clamp((north - y) * inverse, 0.0F, last);
@@ -236,6 +239,26 @@ const FlameTiles::Patch* FlameTiles::patch(float x, float y) const {
   return nullptr;
 }
 
+/// Eight places within a few cells are interpolated between the first and the last.
+FIRETWIN_CLONES("avx2")
+void FlameTiles::ends(const Lanes& x, const Lanes& y, NodeLanes& out) const {
+  constexpr std::size_t last = lane_count - 1;
+  const Patch* near = patch(x[0], y[0]);
+  const float away = std::abs(x[last] - x[0]) + std::abs(y[last] - y[0]);
+  if (near == nullptr || away > few_cells * near->spacing || !near->contains(x[last], y[last])) {
+    nodes(x, y, out);
+    return;
+  }
+  Lanes first, second;
+  near->interpolate(x[0], y[0], first);
+  near->interpolate(x[last], y[last], second);
+  const Lanes part = Lanes{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F} * (1.0F / 7.0F);
+  for (std::size_t channel = 0; channel < channel_count; ++channel) {
+    out[channel] = first[channel] + (second[channel] - first[channel]) * part;
+  }
+}
+
+FIRETWIN_CLONES("avx2")
 void FlameTiles::nodes(const Lanes& x, const Lanes& y, NodeLanes& out) const {
   const Patch* last = nullptr;
   std::array<Lanes, lane_count> rows;

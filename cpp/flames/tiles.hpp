@@ -56,6 +56,8 @@ public:
 
   /// Interpolates the ground at eight places; its elevation is `none` outside of all patches.
   void nodes(const Lanes& x, const Lanes& y, NodeLanes& out) const;
+  /// The same, for what varies slowly: the ground, directions, lengths.
+  void ends(const Lanes& x, const Lanes& y, NodeLanes& out) const;
   /// Ground at a place, m; `none` outside.
   float ground_at(float x, float y) const;
 

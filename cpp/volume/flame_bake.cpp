@@ -43,7 +43,7 @@ bool sample(const FlameVolume& flames, const std::array<Lanes, 3>& place, float 
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const float away = std::hypot(place[0][lane], place[1][lane], place[2][lane]);
     const float part = flames.view().share(away);
-    const flames::FlameStep here = flames.step(samples, lane, samples, lane);
+    const flames::FlameStep here = flames.step(samples.codes(lane), samples, lane);
     if (here.flames * part > 0.0F) {
       burns = true;
       found[0][lane] = here.flames * part;

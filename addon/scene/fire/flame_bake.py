@@ -118,7 +118,8 @@ def build_material(shot: Shot, stage: Stage) -> bpy.types.Material:
     kelvin = tree.attribute("temperature")
     heat = kelvin.ramp(low, high)
     low_green, more, bend = flame_volume.GREEN
-    exponent = (heat - CORE_HEAT) * (LUMINANCE_DECADES * float(np.log(10.0)))
+    over = (heat - CORE_HEAT) * float(np.log(10.0))
+    exponent = tree.math("MINIMUM", *(over * decades for decades in LUMINANCE_DECADES))
     colour = tree.combine(1.0, low_green + more * heat.power(bend), 0.0)
     visible = tree.emission(colour, exponent.exp() * core * density)
     black = {"Color": (0.0, 0.0, 0.0)}

@@ -26,17 +26,17 @@ from . import flames
 
 RADIATED = 0.12  # of the heat of combustion is radiated by flames (Freeborn et al. 2008: 12 +- 3 %)
 KELVIN = (960.0, 1400.0)  # K at heat 0 and 1
-THICKNESS = 16.0  # visible optical depth of the sootiest gas over a flame length (by eye)
+THICKNESS = 20.0  # visible optical depth of the sootiest gas over a flame length (by eye)
 _OPAQUE = 10.0  # 1/m, most of the visible extinction: small flames are thinner (by eye)
 INFRARED = ((0.5, 0.41), (1.8, 0.37), (5.0, 0.29), (18.0, 0.39), (30.0, 0.9))
 """Flame length, m, and infrared extinction of the sootiest gas, 1/m (by power, see test_flames)."""
-_CORE = 3.0  # luminance of the core times 2^exposure (by eye)
+_CORE = 4.0  # luminance of the core times 2^exposure (by eye)
 _LUMINANCE = (0.3, 2.5)  # its bounds, units of the scene
 GREEN = 0.04, 0.66, 1.5  # green over red: at heat 0, increase, and its exponent
 _ROWS = 33
 _LENGTHS = 0.2, 100.0  # m
 _SOOT = 0.05  # extinction of cooled soot over the flames, over a flame's (by eye)
-_ALBEDO = 0.05  # of fresh soot, which dims its own light (assumed)
+_ALBEDO = 0.02  # of fresh soot, which dims its own light (assumed)
 _BASE = 0.22  # of burning crowns, in tree heights (assumed)
 _RADIUS = 0.36  # of burning crowns, over the width of their flames (assumed)
 _SPINDLES = (2000.0, 2500.0)  # m, distances between which single torching crowns give way to the front
@@ -125,7 +125,8 @@ def visible(core: float) -> Array:
         [np.ones(_ROWS), GREEN[0] + GREEN[1] * heat ** GREEN[2], -0.06 * (1.0 - heat**3) + 0.03 * heat**4],
         axis=-1,
     )
-    return (core * 10.0 ** (LUMINANCE_DECADES * (heat - CORE_HEAT)))[:, None] * colour
+    over = heat - CORE_HEAT
+    return (core * 10.0 ** np.minimum(LUMINANCE_DECADES[0] * over, LUMINANCE_DECADES[1] * over))[:, None] * colour
 
 
 def spindles(torches: flames.Points, time: float, eye: Array) -> Array:

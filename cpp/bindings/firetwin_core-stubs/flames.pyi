@@ -10,8 +10,8 @@ from .volume import VdbSummary
 
 CORE_HEAT: float
 """Heat at which the luminance of flames is 1."""
-LUMINANCE_DECADES: float
-"""Decades between the luminance at heat 0 and at heat 1."""
+LUMINANCE_DECADES: tuple[float, float]
+"""Decades of luminance in a unit of heat, below and above the core's."""
 
 class FlameBlock:
     """Solved fire: its mixture fraction, frame by frame. Lengths are over the flame length L, times over
