@@ -32,7 +32,7 @@ that heat kills turn brown (assumed)."""
 LOW_BARE_AFTER = 0.1, 0.5
 """Times from the fire to a bare bush or tuft, over the time that bushes are in flames: thin fuel goes first
 (by eye)."""
-BARE_AFTER = 60.0, 180.0  # s from the fire to a bare plant within the field of flames (assumed)
+BARE_AFTER = 6.0, 30.0  # s from the fire to a crown without needles, within the field of flames (assumed)
 _STRESSED = 0.07  # fraction of trees whose tops are yellow and brown from drought or insects; by eye
 _YELLOWED = (0.110, 0.098, 0.036)
 _HUES = (0.64, 0.80, 0.98), (1.46, 1.24, 0.88)  # factors on the bluest and yellowest stands; by eye
