@@ -15,6 +15,7 @@ namespace firetwin::flames {
 namespace {
 
 constexpr float full = 255.0F;
+constexpr std::int64_t cube = 8; // cells along a side, which are skipped at once if nothing burns
 constexpr float finest_level = 0.75F; // of a pixel: cells up to this size are not coarsened
 constexpr std::array<float, 2> level_blend{0.4F, 0.6F};
 constexpr float thickness = 10.0F; // extinction of soot times L at which levels are filtered
@@ -55,6 +56,19 @@ struct CodeTable {
 struct BlockFrame {
   const std::uint8_t* codes;
   std::int64_t up, along, across;
+
+  bool burns(const std::array<std::int64_t, 3>& first, std::int64_t side) const {
+    for (std::int64_t k = first[0]; k < std::min(first[0] + side, up); ++k) {
+      for (std::int64_t j = first[1]; j < std::min(first[1] + side, along); ++j) {
+        const std::uint8_t* row = codes + (k * along + j) * across;
+        if (std::any_of(row + first[2], row + std::min(first[2] + side, across),
+                        [](std::uint8_t code) { return code != 0; })) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
 
   /// Filters a cube of cells: the extinction that lets the same mean share of light through, and
   /// extinction times the heat of the mean light, in 8 bits each.
@@ -120,6 +134,64 @@ FlameBlock::FlameBlock(std::span<const std::uint8_t> codes, const Shape& shape,
   for (const float speed : rise) {
     rise_.push_back(speed * scale.interval / scale.cell);
   }
+  mark_burning();
+}
+
+void FlameBlock::mark_burning() {
+  const auto [frames, nz, ny, nx] = shape_;
+  cubes_ = {(nz + cube - 1) / cube, (ny + cube - 1) / cube, (nx + cube - 1) / cube};
+  const auto [up, along, across] = cubes_;
+  const std::int64_t count = up * along * across;
+  burning_.assign(static_cast<std::size_t>(loop() * count), 0);
+  const auto mark = [&](std::int64_t frame, std::int64_t k, std::int64_t j, std::int64_t i) {
+    for (std::int64_t n = 0; n < 27; ++n) {
+      const std::int64_t above = k + n / 9 - 1, right = i + n % 3 - 1;
+      const std::int64_t beside = (j + n / 3 % 3 - 1 + along) % along;
+      if (above >= 0 && above < up && right >= 0 && right < across) {
+        burning_[static_cast<std::size_t>(frame * count + (above * along + beside) * across +
+                                          right)] = 1;
+      }
+    }
+  };
+  for (std::int64_t frame = 0; frame < frames; ++frame) {
+    // Frames of the loop that use this one: itself, the one before, and those into which it fades.
+    const std::array<std::int64_t, 4> users{frame, frame - 1, frame - loop(), frame - loop() - 1};
+    for (std::int64_t k = 0; k < up; ++k) {
+      for (std::int64_t j = 0; j < along; ++j) {
+        for (std::int64_t i = 0; i < across; ++i) {
+          const BlockFrame from{codes_.data() + frame * nz * ny * nx, nz, ny, nx};
+          if (!from.burns({k * cube, j * cube, i * cube}, cube)) {
+            continue;
+          }
+          for (const std::int64_t user : users) {
+            if (user >= 0 && user < loop()) {
+              mark(user, k, j, i);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Returns whether something may burn at one of eight places, in cells, at a frame or after it.
+bool FlameBlock::burns(std::int64_t frame, const Lanes& x, const Lanes& y, const Lanes& z) const {
+  constexpr float inverse = 1.0F / static_cast<float>(cube);
+  const auto [up, along, across] = cubes_;
+  const std::uint8_t* cubes = burning_.data() + frame * up * along * across;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const auto i = static_cast<std::int32_t>(x[lane] * inverse),
+               k = static_cast<std::int32_t>(std::max(z[lane], 0.0F) * inverse);
+    auto j = static_cast<std::int32_t>(std::floor(y[lane] * inverse));
+    if (x[lane] < -1.0F || i >= across || k >= up) {
+      continue;
+    }
+    j = wrapped(j, static_cast<std::int32_t>(along));
+    if (cubes[(k * along + j) * across + i] != 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 double FlameBlock::period() const {
@@ -159,10 +231,13 @@ void FlameBlock::codes(const BlockPlaces& places, float time, Lanes& out) const 
   const float inverse = 1.0F / scale_.cell;
   const Lanes x = places.across * inverse - 0.5F, y = places.along * inverse - 0.5F,
               z = places.up * inverse - 0.5F;
-  Lanes risen;
-  rise_at(z, risen);
   out = Lanes{};
   const Parts parts = parts_at(time);
+  if (!burns(parts.part[0].frame, x, y, z)) {
+    return;
+  }
+  Lanes risen;
+  rise_at(z, risen);
   for (std::size_t n = 0; n < parts.count; ++n) {
     add_codes(parts.part[n], x, y, z - risen * parts.part[n].risen, out);
   }
@@ -216,12 +291,16 @@ void FlameBlock::coarse(int number, const BlockPlaces& places, float time,
                         CoarseFlame& out) const {
   const Level& from = level(number);
   const float inverse = 1.0F / scale_.cell, coarser = 1.0F / static_cast<float>(1 << number);
+  out = CoarseFlame{Lanes{}, Lanes{}};
+  const Parts parts = parts_at(time);
+  if (!burns(parts.part[0].frame, places.across * inverse, places.along * inverse,
+             places.up * inverse)) {
+    return;
+  }
   Lanes risen;
   rise_at(places.up * inverse - 0.5F, risen);
   const Lanes x = places.across * (inverse * coarser) - 0.5F,
               y = places.along * (inverse * coarser) - 0.5F, z = places.up * inverse;
-  out = CoarseFlame{Lanes{}, Lanes{}};
-  const Parts parts = parts_at(time);
   for (std::size_t n = 0; n < parts.count; ++n) {
     add_coarse(from, parts.part[n], x, y, (z - risen * parts.part[n].risen) * coarser - 0.5F, out);
   }

@@ -79,6 +79,9 @@ private:
   };
 
   Parts parts_at(float time) const;
+  std::int64_t loop() const { return shape_[0] - scale_.fade; }
+  void mark_burning();
+  bool burns(std::int64_t frame, const Lanes& x, const Lanes& y, const Lanes& z) const;
   void rise_at(const Lanes& up, Lanes& cells) const;
   void add_codes(const Part& part, const Lanes& x, const Lanes& y, const Lanes& z,
                  Lanes& out) const;
@@ -91,6 +94,9 @@ private:
   Shape shape_;
   BlockScale scale_;
   std::vector<float> rise_; ///< cells in an interval
+  /// Whether something burns in a cube of cells or in its neighbours until the next frame.
+  std::vector<std::uint8_t> burning_; // [loop][up][along][across]
+  std::array<std::int64_t, 3> cubes_{};
   mutable std::once_flag built_;
   mutable std::array<Level, levels> levels_;
 };

@@ -21,6 +21,7 @@ constexpr std::array<float, 2> turned{0.8725F, 0.9625F};  // cosines of 29 and 1
 constexpr float row_spacing = 1.1F;    // of low flames, in their lengths
 constexpr float row_front = 0.25F;     // distance behind which a row burns, in lengths
 constexpr float row_length = 1.4F;     // scale of their eddies over their height
+constexpr double burning_rows = 0.5;   // share of the segments of rows that burn
 constexpr float row_warp = 0.45F;      // displacement of rows, in lengths
 constexpr std::array<float, 2> warp_waves{0.7F, 1.7F}; // waves in a length
 constexpr float crown_blend = 0.02F;   // code over which a crown counts
@@ -390,7 +391,9 @@ void FlameField::add_segments(const Line& line, int octave, int direction, const
                               GasLanes& out) const {
   const double scale = static_cast<double>(segment_length) * std::exp2(octave);
   const auto [east, north] = axes[static_cast<std::size_t>(direction)];
-  const double start = (static_cast<double>(east) * origin_[0] + static_cast<double>(north) * origin_[1]) / scale;
+  // Segments of neighbouring rows are not side by side.
+  const double aside = line.salt != 0 ? unit(murmur_finalizer(line.salt)) : 0.0;
+  const double start = aside + (static_cast<double>(east) * origin_[0] + static_cast<double>(north) * origin_[1]) / scale;
   const auto inverse = static_cast<float>(1.0 / scale);
   const Lanes place = (line.foot.x * east + line.foot.y * north) * inverse +
                       static_cast<float>(start - std::floor(start));
@@ -419,6 +422,9 @@ void FlameField::add_segment(const Segment& segment, GasLanes& out) const {
   const auto salt = line.salt * 64U + static_cast<std::uint32_t>(segment.direction) * 16U +
                     static_cast<std::uint32_t>(line.kind);
   const std::uint32_t hash = lattice_hash(segment.number, segment.octave, salt);
+  if (line.salt != 0 && unit(murmur_finalizer(hash + 3U)) > burning_rows) {
+    return;
+  }
   const auto& kind = library_.lines()[line.kind];
   const FlameBlock& block = *kind[hash % kind.size()];
   const auto offset = static_cast<float>(unit(murmur_finalizer(hash + 1U))) * block.along();

@@ -30,8 +30,8 @@ THICKNESS = 20.0  # visible optical depth of the sootiest gas over a flame lengt
 _OPAQUE = 10.0  # 1/m, most of the visible extinction: small flames are thinner (by eye)
 INFRARED = ((0.5, 0.41), (1.8, 0.37), (5.0, 0.29), (18.0, 0.39), (30.0, 0.9))
 """Flame length, m, and infrared extinction of the sootiest gas, 1/m (by power, see test_flames)."""
-_CORE = 4.0  # luminance of the core times 2^exposure (by eye)
-_LUMINANCE = (0.3, 2.5)  # its bounds, units of the scene
+_CORE = 5.0  # luminance of the core times 2^exposure (by eye)
+_LUMINANCE = (0.3, 4.0)  # its bounds, units of the scene
 GREEN = 0.04, 0.66, 1.5  # green over red: at heat 0, increase, and its exponent
 _ROWS = 33
 _LENGTHS = 0.2, 100.0  # m

@@ -59,7 +59,6 @@ class FlameBlock:
     crown: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
-@lru_cache(maxsize=len(KINDS) * len(SEEDS))
 def load(kind: str, seed: int = 1) -> FlameBlock:
     """Return a block of the library; `kind` is one of `KINDS`, `seed` one of `SEEDS`.
 
