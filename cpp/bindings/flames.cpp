@@ -34,14 +34,10 @@ std::shared_ptr<FlameBlock> make_block(const py::object& codes, const py::object
                                        bool periodic) {
   const auto stored = to_array<std::uint8_t>(codes, "codes", {-1, -1, -1, -1});
   const auto speeds = to_array<float>(rise, "rise", {stored.shape(1)});
-  const FlameBlock::Shape shape{stored.shape(0), stored.shape(1), stored.shape(2),
-                                stored.shape(3)};
-  const BlockScale scale{static_cast<float>(cell),
-                         static_cast<float>(front),
-                         static_cast<float>(interval),
-                         fade,
-                         static_cast<float>(wind),
-                         periodic};
+  const FlameBlock::Shape shape{stored.shape(0), stored.shape(1), stored.shape(2), stored.shape(3)};
+  const BlockScale scale{static_cast<float>(cell),     static_cast<float>(front),
+                         static_cast<float>(interval), fade,
+                         static_cast<float>(wind),     periodic};
   return std::make_shared<FlameBlock>(view(stored), shape, scale, view(speeds));
 }
 

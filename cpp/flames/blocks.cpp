@@ -129,7 +129,8 @@ FlameBlock::FlameBlock(std::span<const std::uint8_t> codes, const Shape& shape,
   }
   if (!(scale.cell > 0.0F && scale.interval > 0.0F) || scale.fade < 0 ||
       2 * scale.fade >= shape[0]) {
-    throw std::invalid_argument("cell and interval must be positive, and fade under half the frames");
+    throw std::invalid_argument(
+        "cell and interval must be positive, and fade under half the frames");
   }
   for (const float speed : rise) {
     rise_.push_back(speed * scale.interval / scale.cell);
@@ -244,9 +245,9 @@ void FlameBlock::codes(const BlockPlaces& places, float time, Lanes& out) const 
   out *= 1.0F / full;
 }
 
-__attribute__((always_inline)) inline void
-FlameBlock::add_codes(const Part& part, const Lanes& x, const Lanes& y, const Lanes& up,
-                      Lanes& out) const {
+__attribute__((always_inline)) inline void FlameBlock::add_codes(const Part& part, const Lanes& x,
+                                                                 const Lanes& y, const Lanes& up,
+                                                                 Lanes& out) const {
   const auto nz = static_cast<std::int32_t>(shape_[1]), ny = static_cast<std::int32_t>(shape_[2]),
              nx = static_cast<std::int32_t>(shape_[3]);
   const Lanes z = up < 0.0F ? Lanes{} : up;
@@ -287,8 +288,7 @@ FlameBlock::add_codes(const Part& part, const Lanes& x, const Lanes& y, const La
 }
 
 FIRETWIN_CLONES("avx2")
-void FlameBlock::coarse(int number, const BlockPlaces& places, float time,
-                        CoarseFlame& out) const {
+void FlameBlock::coarse(int number, const BlockPlaces& places, float time, CoarseFlame& out) const {
   const Level& from = level(number);
   const float inverse = 1.0F / scale_.cell, coarser = 1.0F / static_cast<float>(1 << number);
   out = CoarseFlame{Lanes{}, Lanes{}};
@@ -308,9 +308,10 @@ void FlameBlock::coarse(int number, const BlockPlaces& places, float time,
   out.hot *= 1.0F / full;
 }
 
-__attribute__((always_inline)) inline void
-FlameBlock::add_coarse(const Level& level, const Part& part, const Lanes& x, const Lanes& y,
-                       const Lanes& up, CoarseFlame& out) const {
+__attribute__((always_inline)) inline void FlameBlock::add_coarse(const Level& level,
+                                                                  const Part& part, const Lanes& x,
+                                                                  const Lanes& y, const Lanes& up,
+                                                                  CoarseFlame& out) const {
   const auto nz = static_cast<std::int32_t>(level.size[0]),
              ny = static_cast<std::int32_t>(level.size[1]),
              nx = static_cast<std::int32_t>(level.size[2]);

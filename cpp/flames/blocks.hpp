@@ -15,8 +15,8 @@ using LaneIndex = Simd<std::int32_t, lane_count>;
 
 /// Size of a solved fire: lengths over the flame length L, times over sqrt(L / g).
 struct BlockScale {
-  float cell;     ///< edge of a cell
-  float front;    ///< leading edge of the burning strip across the front, from the first cell's face
+  float cell;  ///< edge of a cell
+  float front; ///< leading edge of the burning strip across the front, from the first cell's face
   float interval; ///< time between frames
   int fade;       ///< number of last frames that fade into the first ones
   float wind;     ///< wind across the front, over sqrt(g L)
@@ -41,7 +41,7 @@ struct CoarseFlame {
 /// their light and their gaps when pixels are larger than cells.
 class FlameBlock {
 public:
-  static constexpr int levels = 4; ///< coarser than the cells
+  static constexpr int levels = 4;           ///< coarser than the cells
   using Shape = std::array<std::int64_t, 4>; ///< frames, and cells up, along and across
 
   /// @param codes [frames][up][along][across]: 255 sqrt(Z / 4), Z over the stoichiometric one

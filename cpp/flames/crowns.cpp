@@ -9,11 +9,11 @@
 namespace firetwin::flames {
 namespace {
 
-constexpr float cell = 8.0F;          // m
+constexpr float cell = 8.0F;             // m
 constexpr float places_in_metre = 16.0F; // that have their own eddies
-constexpr float overshoot = 0.05F;    // cells by which steps may enter one with flames
-constexpr float wide_radius = 0.2F;   // radius of the solved crown, in its height
-constexpr float least_size = 0.45F;   // of a block across, in the height of the flames
+constexpr float overshoot = 0.05F;       // cells by which steps may enter one with flames
+constexpr float wide_radius = 0.2F;      // radius of the solved crown, in its height
+constexpr float least_size = 0.45F;      // of a block across, in the height of the flames
 
 } // namespace
 

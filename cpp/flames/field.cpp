@@ -13,18 +13,18 @@
 namespace firetwin::flames {
 namespace {
 
-constexpr float shortest = 0.05F;    // m, length of flames that are drawn
+constexpr float shortest = 0.05F;      // m, length of flames that are drawn
 constexpr float segment_length = 3.0F; // flame lengths along the front
 constexpr float overlap = 0.8F;        // part of a segment from which the next one fades in
-constexpr std::array<float, 2> octave_blend{0.4F, 0.6F};  // octaves between rounded lengths
-constexpr std::array<float, 2> turned{0.8725F, 0.9625F};  // cosines of 29 and 16 degrees
-constexpr float row_spacing = 1.1F;    // of low flames, in their lengths
-constexpr float row_front = 0.25F;     // distance behind which a row burns, in lengths
-constexpr float row_length = 1.4F;     // scale of their eddies over their height
-constexpr double burning_rows = 0.5;   // share of the segments of rows that burn
-constexpr float row_warp = 0.45F;      // displacement of rows, in lengths
+constexpr std::array<float, 2> octave_blend{0.4F, 0.6F}; // octaves between rounded lengths
+constexpr std::array<float, 2> turned{0.8725F, 0.9625F}; // cosines of 29 and 16 degrees
+constexpr float row_spacing = 1.1F;                      // of low flames, in their lengths
+constexpr float row_front = 0.25F;   // distance behind which a row burns, in lengths
+constexpr float row_length = 1.4F;   // scale of their eddies over their height
+constexpr double burning_rows = 0.5; // share of the segments of rows that burn
+constexpr float row_warp = 0.45F;    // displacement of rows, in lengths
 constexpr std::array<float, 2> warp_waves{0.7F, 1.7F}; // waves in a length
-constexpr float crown_blend = 0.02F;   // code over which a crown counts
+constexpr float crown_blend = 0.02F;                   // code over which a crown counts
 constexpr int directions = 4;
 constexpr float diagonal = std::numbers::sqrt2_v<float> / 2.0F;
 constexpr std::array<std::array<float, 2>, directions> axes{
@@ -79,8 +79,8 @@ float wave(float x, float y, std::int64_t seed) {
 }
 
 /// Adds a block's gas with a weight.
-void add_block(const FlameBlock& block, const BlockPlaces& places, float time, const BlockLevels& levels,
-               const Lanes& weight, GasLanes& out) {
+void add_block(const FlameBlock& block, const BlockPlaces& places, float time,
+               const BlockLevels& levels, const Lanes& weight, GasLanes& out) {
   const auto add = [&](int number, float share) {
     if (share <= 0.0F) {
       return;
@@ -102,7 +102,8 @@ void add_block(const FlameBlock& block, const BlockPlaces& places, float time, c
 
 float moment(const FlameBlock& block, double time, float length, double phase) {
   const double period = block.period();
-  const double at = time / std::sqrt(static_cast<double>(length) / constants::gravity) + phase * period;
+  const double at =
+      time / std::sqrt(static_cast<double>(length) / constants::gravity) + phase * period;
   return static_cast<float>(at - period * std::floor(at / period));
 }
 
@@ -110,9 +111,9 @@ float moment(const FlameBlock& block, double time, float length, double phase) {
 
 /// Where the gas at eight points rose from, and what burns there.
 struct FlameField::Foot {
-  Lanes x, y;           ///< m
+  Lanes x, y; ///< m
   NodeLanes node;
-  std::array<Lanes, 2> along; ///< unit vector along the front
+  std::array<Lanes, 2> along;                         ///< unit vector along the front
   std::array<Lanes, FlameLibrary::most_kinds> shares; ///< of the kinds of lines
 };
 
@@ -168,7 +169,7 @@ struct FlameField::Segment {
   const Line& line;
   int octave, direction;
   std::int64_t number;
-  const Lanes& along;  ///< place in the segment, in rounded lengths
+  const Lanes& along; ///< place in the segment, in rounded lengths
   const Lanes& weight;
 };
 
@@ -281,8 +282,7 @@ void FlameField::find_foot(const Lanes& x, const Lanes& y, const Lanes& height,
 }
 
 FIRETWIN_CLONES("avx2")
-void FlameField::add_front(const Foot& foot, const Lanes& height, float size,
-                           GasLanes& out) const {
+void FlameField::add_front(const Foot& foot, const Lanes& height, float size, GasLanes& out) const {
   const Lanes length = foot.node[length_channel];
   Lanes drawn = length;
   drawn = drawn < wide_pixels * size ? Lanes{} + wide_pixels * size : drawn;
@@ -318,8 +318,7 @@ void FlameField::add_low(const Foot& foot, const Lanes& height, float size, GasL
   drawn = drawn < wide_pixels * size ? Lanes{} + wide_pixels * size : drawn;
   const Lanes up = height / drawn;
   const FlameBlock& block = *library_.lines()[0].front();
-  const Lanes seen =
-      (length > shortest && up < block.top()) ? Lanes{} + 1.0F : Lanes{};
+  const Lanes seen = (length > shortest && up < block.top()) ? Lanes{} + 1.0F : Lanes{};
   if (greatest(seen) <= 0.0F) {
     return;
   }
@@ -393,7 +392,9 @@ void FlameField::add_segments(const Line& line, int octave, int direction, const
   const auto [east, north] = axes[static_cast<std::size_t>(direction)];
   // Segments of neighbouring rows are not side by side.
   const double aside = line.salt != 0 ? unit(murmur_finalizer(line.salt)) : 0.0;
-  const double start = aside + (static_cast<double>(east) * origin_[0] + static_cast<double>(north) * origin_[1]) / scale;
+  const double start =
+      aside +
+      (static_cast<double>(east) * origin_[0] + static_cast<double>(north) * origin_[1]) / scale;
   const auto inverse = static_cast<float>(1.0 / scale);
   const Lanes place = (line.foot.x * east + line.foot.y * north) * inverse +
                       static_cast<float>(start - std::floor(start));
@@ -409,9 +410,8 @@ void FlameField::add_segments(const Line& line, int octave, int direction, const
     smooth_lanes(at, overlap, 1.0F, gone);
     const Lanes part = weight * in * (1.0F - gone);
     if (greatest(part) > 0.0F) {
-      add_segment({line, octave, direction,
-                   number + static_cast<std::int64_t>(std::floor(start)), at * segment_length,
-                   part},
+      add_segment({line, octave, direction, number + static_cast<std::int64_t>(std::floor(start)),
+                   at * segment_length, part},
                   out);
     }
   }
@@ -460,12 +460,14 @@ void FlameField::add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, floa
     }
     Lanes away;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      away[lane] = FlameCrowns::lean * shape_.flight_to(rise[lane] - FlameCrowns::upright * crown.top);
+      away[lane] =
+          FlameCrowns::lean * shape_.flight_to(rise[lane] - FlameCrowns::upright * crown.top);
     }
     const float wide = 1.0F / FlameCrowns::size(crown);
     const Lanes dx = (x - crown.x - static_cast<float>(shape_.wind[0]) * away) * wide,
                 dy = (y - crown.y - static_cast<float>(shape_.wind[1]) * away) * wide;
-    const auto turn = static_cast<float>(2.0 * std::numbers::pi * unit(murmur_finalizer(hash + 1U)));
+    const auto turn =
+        static_cast<float>(2.0 * std::numbers::pi * unit(murmur_finalizer(hash + 1U)));
     const float cosine = std::cos(turn), sine = std::sin(turn);
     const BlockPlaces places{block.scale().front + dx * cosine + dy * sine,
                              0.5F * block.along() + dy * cosine - dx * sine, up};

@@ -41,12 +41,12 @@ struct FlameSamples {
 /// Across the front a point's place in a block is its foot's distance from the front over L; along
 /// the front, and in time, L is rounded to a power of 2, so that the pattern does not slide where L
 /// changes. Every three lengths along the front another part of another block is taken at another
-/// time, by a hash. Wind chooses the block, and leans what the block does not hold. Behind the front
-/// low flames stand in rows. Nothing depends on other times or on the camera.
+/// time, by a hash. Wind chooses the block, and leans what the block does not hold. Behind the
+/// front low flames stand in rows. Nothing depends on other times or on the camera.
 class FlameField {
 public:
   static constexpr float below_ground = 0.5F; ///< m below the map's ground that still burns
-  static constexpr float wide_pixels = 1.5F; ///< least length of drawn flames, pixels
+  static constexpr float wide_pixels = 1.5F;  ///< least length of drawn flames, pixels
   static constexpr float lean = 0.5F; ///< of flames in wind that their block does not hold (by eye)
 
   /// @param shape wind that carries flames, without `lean`

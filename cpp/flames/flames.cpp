@@ -12,12 +12,12 @@ namespace {
 constexpr float least_step = 0.015F; // m
 constexpr float fine_step = 0.028F;  // of the flame length; 0.035 shows dots at edges (by eye)
 constexpr float step_pixels = 0.7F;
-constexpr float most_step = 0.2F; // of the flame length
+constexpr float most_step = 0.2F;                   // of the flame length
 constexpr std::array<float, 2> at_lens{0.4F, 2.0F}; // m, distances up to which flames are left out
 constexpr float thin_flame = 1.0e-4F;               // 1/m, extinction that is left out
 constexpr float thin_gas = 1.0e-3F;                 // code that is left out
 constexpr float typical_path = 0.3F; // way through the sootiest gas of a flame, in its lengths
-constexpr float whole = 0.999F;                     // share from which flames are not thinned out
+constexpr float whole = 0.999F;      // share from which flames are not thinned out
 
 /// Returns the extinction, 1/m, of flames that fill a share of their drawn length: it lets as much
 /// light through as the part of the pixel beside them does.
@@ -34,15 +34,15 @@ FlameVolume::FlameVolume(const FlamePatches& patches, std::span<const Spindle> c
                          const FlameLight& light, const FlameView& view, const Vector& origin,
                          double time)
     : library_(std::move(library)), origin_(origin), light_(light), view_(view),
-      table_(light.visible),
-      crowns_(crowns, shape, library_->crowns().front()->top(),
-              0.5F * library_->crowns().front()->across(), origin),
+      table_(light.visible), crowns_(crowns, shape, library_->crowns().front()->top(),
+                                     0.5F * library_->crowns().front()->across(), origin),
       tiles_(patches,
              {{FlameField::lean * shape.wind[0], FlameField::lean * shape.wind[1]},
               shape.launch,
               shape.acceleration},
              {library_->ahead(), library_->behind(), library_->top(),
-              FlameField::wide_pixels * view.pixel}, crowns_, origin),
+              FlameField::wide_pixels * view.pixel},
+             crowns_, origin),
       field_(tiles_, crowns_, *library_, shape, origin, time) {
   if (light_.extinction.empty()) {
     throw std::invalid_argument("extinction needs a row");
@@ -83,8 +83,7 @@ FlameStep FlameVolume::step(const FlameSamples::Codes& before, const FlameSample
     if (std::max(code, old) * fine < thin_gas && coarse < thin_gas) {
       continue;
     }
-    const auto [visible, infrared] =
-        extinction(of.length[lane], of.drawn[lane], of.share[lane]);
+    const auto [visible, infrared] = extinction(of.length[lane], of.drawn[lane], of.share[lane]);
     FlameOptics optics{};
     if (fine > 0.0F) {
       optics = table_.between(old, code, of.height[lane]);
@@ -107,8 +106,7 @@ FlameStep FlameVolume::step(const FlameSamples::Codes& before, const FlameSample
     out.infrared += infrared * flame;
     hot += infrared * warm;
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      light[channel] +=
-          visible * (glow[channel] + (flame + soot) * light_.soot_light[channel]);
+      light[channel] += visible * (glow[channel] + (flame + soot) * light_.soot_light[channel]);
     }
   }
   if (out.extinction > 0.0F) {

@@ -15,7 +15,7 @@ namespace firetwin::flames {
 struct FlameLight {
   std::vector<std::array<float, 3>> visible; ///< radiance at evenly spaced heats
   std::array<float, 3> soot_light;           ///< radiance of soot per unit of optical depth
-  float soot; ///< extinction of cooled soot over the flames, over a flame's
+  float soot;              ///< extinction of cooled soot over the flames, over a flame's
   double coolest, hottest; ///< temperatures at heat 0 and 1, K
   /// Flame length (m), visible and infrared extinction (1/m); linear between rows.
   std::vector<std::array<float, 3>> extinction;

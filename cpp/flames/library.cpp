@@ -11,7 +11,8 @@ FlameLibrary::FlameLibrary(std::vector<Kind> lines, Kind crowns)
   const auto is_empty = [](const Kind& kind) { return kind.empty(); };
   if (lines_.empty() || lines_.size() > most_kinds || crowns_.empty() ||
       std::any_of(lines_.begin(), lines_.end(), is_empty)) {
-    throw std::invalid_argument("a library needs blocks of crowns, and of one to four kinds of lines");
+    throw std::invalid_argument(
+        "a library needs blocks of crowns, and of one to four kinds of lines");
   }
   float wind = -1.0F;
   for (const Kind& kind : lines_) {

@@ -9,14 +9,14 @@
 namespace firetwin::flames {
 namespace {
 
-constexpr float lean_end = 0.4F, lean_full = 0.75F; // Z between which soot burns up
-constexpr float peak = 1.25F, width = 1.2F;         // Z of the most soot, and its spread
-constexpr float rich_soot = 0.4F;                   // share of soot far on the rich side
-constexpr float hottest = 1.1F;                     // Z
+constexpr float lean_end = 0.4F, lean_full = 0.75F;       // Z between which soot burns up
+constexpr float peak = 1.25F, width = 1.2F;               // Z of the most soot, and its spread
+constexpr float rich_soot = 0.4F;                         // share of soot far on the rich side
+constexpr float hottest = 1.1F;                           // Z
 constexpr float lean_cooling = 1.2F, rich_cooling = 0.7F; // of the heat per Z
-constexpr float burnout = 0.95F;              // share of the lean soot that is gone over the tips
+constexpr float burnout = 0.95F; // share of the lean soot that is gone over the tips
 constexpr std::array<float, 2> tips{0.5F, 1.0F}; // heights between which it goes
-constexpr float loss = 0.6F;                              // of the heat at the tips, by radiation
+constexpr float loss = 0.6F;                     // of the heat at the tips, by radiation
 constexpr float loss_power = 1.3F;
 
 } // namespace
@@ -42,8 +42,7 @@ float luminance_at(float heat) {
 
 float heat_of(float luminance) {
   const float decades = std::log10(std::max(luminance, luminance_at(0.0F)));
-  const float over = decades > 0.0F ? decades / bright_decades
-                                                                  : decades / dim_decades;
+  const float over = decades > 0.0F ? decades / bright_decades : decades / dim_decades;
   return std::clamp(core_heat + over, 0.0F, 1.0F);
 }
 

@@ -20,8 +20,7 @@ FlameTable::FlameTable(std::span<const std::array<float, 3>> visible)
     : visible_(visible.begin(), visible.end()) {
   const auto last = static_cast<float>(codes - 1);
   for (std::size_t row = 0; row < heights; ++row) {
-    const float height =
-        tallest * static_cast<float>(row) / static_cast<float>(heights - 1);
+    const float height = tallest * static_cast<float>(row) / static_cast<float>(heights - 1);
     const float over = smoothstep(soot_heights[0], soot_heights[1], height);
     Lanes sum{}, before{};
     for (std::size_t n = 0; n < codes; ++n) {

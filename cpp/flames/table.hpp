@@ -11,8 +11,8 @@ namespace firetwin::flames {
 
 /// Optical properties of gas in a step, relative to a flame's greatest extinction.
 struct FlameOptics {
-  float extinction; ///< of flames
-  float hot;        ///< extinction times heat
+  float extinction;           ///< of flames
+  float hot;                  ///< extinction times heat
   std::array<float, 3> light; ///< extinction times radiance
   float soot;                 ///< extinction of cooled soot
 };

@@ -16,9 +16,9 @@ constexpr std::int64_t patch_nodes = patch_side + 1;
 constexpr std::array<double, 2> squares{1024.0, 128.0}; // m, that are skipped at once if empty
 constexpr double most_squares = 1.0e7;
 constexpr float past_edge = 0.05F;      // tiles by which steps may enter one with flames
-constexpr float few_cells = 4.0F; // over which the ground is as good as straight
+constexpr float few_cells = 4.0F;       // over which the ground is as good as straight
 constexpr float beside_patches = 16.0F; // m, step where only crowns may burn
-constexpr float below_front = 50.0F;  // m, depth to which ground is searched below a tile's
+constexpr float below_front = 50.0F;    // m, depth to which ground is searched below a tile's
 constexpr float no_end = std::numeric_limits<float>::max();
 
 std::int64_t square_number(double at, double span) {
@@ -60,7 +60,8 @@ bool FlameTiles::Patch::contains(float east, float north) const {
   return east >= x && north >= y && east < x + wide && north < y + wide;
 }
 
-__attribute__((always_inline)) inline void FlameTiles::Patch::interpolate(float east, float north, Lanes& out) const {
+__attribute__((always_inline)) inline void FlameTiles::Patch::interpolate(float east, float north,
+                                                                          Lanes& out) const {
   constexpr float last = static_cast<float>(patch_side) - 0.001F;
   const float column = std::clamp((east - x) * inverse, 0.0F, last),
               row = std::clamp((north - y) * inverse, 0.0F, last);
@@ -106,8 +107,7 @@ std::int32_t FlameTiles::Level::at(std::int64_t i, std::int64_t j) const {
 
 FlameTiles::FlameTiles(const FlamePatches& patches, const FlameShape& shape,
                        const FlameReach& reach, const FlameCrowns& crowns, const Vector& origin)
-    : origin_(origin), bounds_{no_end, -no_end, no_end, -no_end},
-      heights_{no_end, -no_end} {
+    : origin_(origin), bounds_{no_end, -no_end, no_end, -no_end}, heights_{no_end, -no_end} {
   add_patches(patches, origin);
   list_levels(patches);
   bound_patches(shape, reach);
@@ -153,8 +153,7 @@ FlameTiles::FlameTiles(const FlamePatches& patches, const FlameShape& shape,
 void FlameTiles::add_patches(const FlamePatches& patches, const Vector& origin) {
   const std::size_t count = patches.spacing.size(),
                     each = static_cast<std::size_t>(patch_nodes * patch_nodes);
-  if (patches.corner.size() != 2 * count ||
-      patches.nodes.size() != count * each * channel_count) {
+  if (patches.corner.size() != 2 * count || patches.nodes.size() != count * each * channel_count) {
     throw std::invalid_argument("nodes must be (n, 33, 33, 8), corners (n, 2), and spacings (n)");
   }
   patches_.resize(count);
@@ -371,7 +370,8 @@ void FlameTiles::bound_patches(const FlameShape& shape, const FlameReach& reach)
         }
       }
       const auto box = each.tile(tile).bounds;
-      const float longest = flames.longest(reach, reach.least * farthest_corner(box, flames.lowest));
+      const float longest =
+          flames.longest(reach, reach.least * farthest_corner(box, flames.lowest));
       if (longest <= 0.0F) {
         continue;
       }

@@ -31,8 +31,8 @@ using NodeLanes = std::array<Lanes, channel_count>;
 /// Squares of the ground of `patch_side` cells where something may burn. Finer ones cover coarser
 /// ones, and nothing burns outside of all.
 struct FlamePatches {
-  std::span<const float> nodes;   ///< (n, side + 1, side + 1, channels), rows to the north
-  std::span<const double> corner; ///< (n, 2) x and y of the first node, m
+  std::span<const float> nodes;    ///< (n, side + 1, side + 1, channels), rows to the north
+  std::span<const double> corner;  ///< (n, 2) x and y of the first node, m
   std::span<const double> spacing; ///< (n) m, powers of 2 of the finest
 };
 constexpr std::int64_t patch_side = 32; ///< cells
@@ -110,8 +110,7 @@ private:
   const Patch* patch(float x, float y) const;
   std::array<std::int64_t, 2> place(float x, float y, double span) const;
   std::array<float, 4> square(const std::array<std::int64_t, 2>& at, double span) const;
-  template <class Function>
-  void visit(const std::array<float, 4>& box, const Function& function);
+  template <class Function> void visit(const std::array<float, 4>& box, const Function& function);
   void raise(const std::array<float, 4>& box, float top, float length);
 
   Vector origin_;

@@ -126,7 +126,9 @@ def visible(core: float) -> Array:
         axis=-1,
     )
     over = heat - CORE_HEAT
-    return (core * 10.0 ** np.minimum(LUMINANCE_DECADES[0] * over, LUMINANCE_DECADES[1] * over))[:, None] * colour
+    return (core * 10.0 ** np.minimum(LUMINANCE_DECADES[0] * over, LUMINANCE_DECADES[1] * over))[
+        :, None
+    ] * colour
 
 
 def spindles(torches: flames.Points, time: float, eye: Array) -> Array:
