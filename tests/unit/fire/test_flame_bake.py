@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from firetwin.scene.fire import flame_volume
+from firetwin.shot.fire.flame_nodes import SIDE
 from firetwin_core import volume
-from firetwin_core.flames import FlameLight, FlameShape, FlameVolume, write_flames
+from firetwin_core.flames import write_flames
+from flame_field import flames, front
 from planck import EMPTY, EVERY, PLANCK
 from plumes import read
 
@@ -12,30 +13,12 @@ VOXEL = 0.5
 HALF = 2.0**-10  # relative rounding of half precision
 
 
-def flames(fade=(1e5, 2e5), origin=(1000.0, -2000.0, 300.0), heights=6.0):
-    """A front of flames along x, 3 m deep, near the origin, on ground at its height."""
-    cells = 32
-    length = np.zeros((cells, cells), np.float32)
-    length[14:18] = heights
-    return FlameVolume(
-        squares=[(length, np.full_like(length, origin[2]), (origin[0] - 12.0, origin[1] - 12.0), 0.75)],
-        spindles=np.empty((0, 6)),
-        shape=FlameShape(wind=(0.0, 1.0)),
-        light=FlameLight(
-            visible=flame_volume.visible(1.0),
-            extinction=0.8,
-            soot=0.01,
-            soot_light=(0.0, 0.0, 0.0),
-            coolest=900.0,
-            hottest=1400.0,
-            scales=flame_volume.SCALES,
-            infrared=0.6,
-            dim=0.0,
-        ),
-        pixel=0.0,
-        fade=fade,
-        origin=origin,
-        time=7.0,
+def burning(fade=(1e5, 2e5), origin=(1000.0, -2000.0, 300.0), height=6.0):
+    """A front of flames along x near the origin, on ground at its height."""
+    nodes, corners, spacings = front(height, GROUND=origin[2], LENGTH=lambda x, y: height * (np.abs(x) < 6.0))
+    place = SIDE * spacings[0] * np.floor(np.array(origin[:2]) / (SIDE * spacings[0]))
+    return flames(
+        (nodes, corners + place, spacings), 7.0, (0.0, 1.0), fade=fade, origin=(*place, origin[2]), soot=0.01
     )
 
 

@@ -7,25 +7,16 @@ import pytest
 from firetwin.scene.fire import flame_volume
 from firetwin.scene.fire import flames as points
 from firetwin.scene.forest.stand import Stand
+from firetwin.shot.fire import flame_library
 from firetwin_core import sensor, volume
-from flame_field import flames
+from flame_field import flames, front
 from march_light import NO_LIGHT
 from planck import EMPTY, EVERY, KELVINS, PLANCK
 from straight_front import shot_of
 
 LIGHT = volume.Illumination(**NO_LIGHT)
-
-
-def front(length, depth, cells=12, half=4.0, shift=0.0):
-    """Square of a front along x, of a depth over its length, which falls off behind."""
-    cell = length / cells
-    lines = (np.arange(int(2 * half * cells)) - half * cells) * cell
-    behind = lines[:, None] - shift
-    full = np.clip((behind + depth / 2) / (depth * 0.15), 0, 1) * np.clip(
-        (depth / 2 - behind) / (depth * 0.6), 0, 1
-    )
-    lengths = np.broadcast_to(length * full, (len(lines), len(lines)))
-    return np.array(lengths, np.float32), np.zeros(lengths.shape, np.float32), (lines[0], lines[0]), cell
+OPAQUE = [(18.0, 1.0, 50.0)]  # infrared extinction of 50 1/m
+UNBURNT = front(20.0, LENGTH=0.0)
 
 
 def look(length, away=4.0, wide=64, high=48, elevation=0.0):
@@ -47,46 +38,44 @@ def opacity(burning, length, **view):
 
 
 @pytest.mark.parametrize("length", [1.8, 5.0, 18.0, 30.0])
-def test_flames_are_as_high_as_asked(length):
+def test_half_of_the_flames_are_higher_than_their_length(length):
     tops = []
     for time in (3.0, 7.7, 13.1):
-        seen, pixel = opacity(flames([front(length, 0.8 * length)], time), length)
+        seen, pixel = opacity(flames(front(length), time, pixel=1.0 / 64.0), length)
         tops += [np.flatnonzero(column > 0.5).max(initial=0) * pixel for column in seen.T]
-    assert np.mean(tops) == pytest.approx(length, rel=0.2)
-    assert np.max(tops) < 2.2 * length
+    assert np.median(tops) == pytest.approx(length, rel=0.2)
+    assert np.max(tops) < 1.7 * length
 
 
-def radiated(length, times=(3.0, 7.7, 13.1), **changes):
-    """Power (W/m) that a metre of front radiates upwards, from views across it at three elevations."""
-    views, sums = np.radians([5.0, 35.0, 65.0]), []
+def radiated(length, froude):
+    """Power (W/m) that a metre of front radiates upwards, from views of both sides at three elevations.
+
+    `froude` is the wind over the root of g and the flame length.
+    """
+    views, sums, pixel = np.radians([5.0, 35.0, 65.0]), [], length / 8.0
+    times, wind = 3.0 + 1.4 * np.sqrt(length) * np.arange(3), (0.0, froude * np.sqrt(9.81 * length))
     for angle in views:
-        high = 2.2 * length * np.cos(angle) + 4.0 * length * np.sin(angle)
-        pixel = length / 12.0
-        low = -2.0 * length * np.sin(angle)
-        up, across = (np.arange(a, b, pixel) + 0.5 * pixel for a, b in ((low, low + high), (-length, length)))
-        across, up = np.meshgrid(across, up)
-        ahead = np.array([0.0, np.cos(angle), -np.sin(angle)])
-        upward = np.array([0.0, np.sin(angle), np.cos(angle)])
-        origins = (
-            across[..., None] * np.array([1.0, 0.0, 0.0]) + up[..., None] * upward - 6.0 * length * ahead
-        )
-        origins = origins.reshape(-1, 3)
-        ends = np.minimum(origins[:, 2] / np.sin(angle), 14.0 * length)
-        seen = ends > 0.0
+        low, high = -2.2 * np.sin(angle), 1.7 * np.cos(angle) + 2.2 * np.sin(angle)
+        up, across = (np.arange(a * length, b * length, pixel) for a, b in ((low, high), (-2.0, 2.0)))
+        across, up = (each.ravel() for each in np.meshgrid(across, up + 0.5 * pixel))
         total = 0.0
-        for time in times:
-            burning = flames([front(length, 0.8 * length)], time, **changes)
+        for time, side in itertools.product(times, (-1.0, 1.0)):
+            ahead = np.array([0.0, side * np.cos(angle), -np.sin(angle)])
+            upward = np.array([0.0, side * np.sin(angle), np.cos(angle)])
+            origins = across[:, None] * [1.0, 0.0, 0.0] + up[:, None] * upward - 6.0 * length * ahead
+            ends = np.minimum(origins[:, 2] / np.sin(angle), 14.0 * length)
+            seen = ends > 0.0
             rays = volume.march_infrared(
                 [],
                 origins[seen],
                 np.broadcast_to(ahead, (seen.sum(), 3)),
                 ends[seen],
                 radiance=EVERY,
-                flames=burning,
+                flames=flames(front(length, half=(2.0, 3.0)), time, wind),
                 **PLANCK,
                 **EMPTY,
             )
-            total += rays[:, 0].sum() * pixel**2 / (2.0 * length) / len(times)
+            total += rays[:, 0].sum() * pixel**2 / (4.0 * length) / (2 * len(times))
         sums.append(total)
     steps = np.radians(np.arange(0.5, 90.0))
     # A wall that is seen from the side is foreshortened: the mean of |cos| over the azimuth is 2 / pi.
@@ -96,15 +85,17 @@ def radiated(length, times=(3.0, 7.7, 13.1), **changes):
     )
 
 
-@pytest.mark.parametrize("length", [1.8, 5.0, 18.0, 30.0])
+@pytest.mark.parametrize("length", [0.5, 1.8, 5.0, 18.0, 30.0])
 def test_radiated_power_is_the_measured_share_of_the_fireline_intensity(length):
+    """The mean of calm air, a breeze and wind, as lengths do not tell the wind."""
     intensity = 1000.0 * (length / 0.0266) ** 1.5  # Thomas (1963)
-    assert radiated(length) == pytest.approx(flame_volume.RADIATED * intensity, rel=0.1)
+    found = np.mean([radiated(length, froude) for froude in (0.0, 0.41, 0.92)])
+    assert found == pytest.approx(flame_volume.RADIATED * intensity, rel=0.15)
 
 
 def test_temperatures_of_opaque_flames_are_between_the_coolest_and_the_hottest():
     origins, directions, _, _ = look(18.0)
-    thick = flames([front(18.0, 14.0)], infrared=50.0)
+    thick = flames(front(18.0), extinction=OPAQUE)
     found = volume.march_infrared(
         [], origins, directions, np.full(len(origins), 150.0), radiance=EVERY, flames=thick, **PLANCK, **EMPTY
     )
@@ -119,7 +110,7 @@ def test_temperatures_of_opaque_flames_are_between_the_coolest_and_the_hottest()
 @pytest.mark.parametrize("band", [(8.0, 14.0), (3.4, 4.1)])
 def test_opaque_flames_of_one_temperature_have_its_planck_radiance(band):
     origins, directions, _, _ = look(18.0)
-    even = flames([front(18.0, 14.0)], infrared=50.0, coolest=1150.0, hottest=1150.0)
+    even = flames(front(18.0), extinction=OPAQUE, coolest=1150.0, hottest=1150.0)
     table, ends = sensor.radiance(KELVINS, band), np.full(len(origins), 150.0)
     found = volume.march_infrared(
         [], origins, directions, ends, radiance=table, flames=even, **PLANCK, **EMPTY
@@ -131,37 +122,34 @@ def test_opaque_flames_of_one_temperature_have_its_planck_radiance(band):
 
 def test_the_pattern_rises_with_the_gas():
     length, rate, frames = 25.0, 12.0, 4
-    origins, directions, pixel, shape = look(length, wide=200, high=80)
+    origins, directions, pixel, shape = look(length, wide=160, high=64)
     ends, seen = np.full((len(origins), 1), 200.0), []
     for number in range(frames):
-        burning = flames([front(length, 0.8 * length)], 3.0 + number / rate, pixel=pixel / (4.0 * length))
+        burning = flames(front(length), 3.0 + number / rate, pixel=1.0 / 160.0)
         found = volume.march([], origins, directions, ends, LIGHT, flames=burning)
         seen.append(np.log(np.maximum(found[:, 0, :3], 0.0).sum(axis=-1).reshape(shape) + 3e-2))
     seen = np.array(seen)
     seen -= seen.mean(axis=(0, 2))[None, :, None]  # flames are brightest at their foot, at any time
-    speeds = []
-    for low, high in ((6.0, 12.0), (12.0, 20.0)):
-        rows = slice(int(low / pixel), int(high / pixel))
-        likeness = []
-        for shift in range(5):
-            later = slice(rows.start + shift, rows.stop + shift)
-            pairs = [(a[rows], b[later]) for a, b in itertools.pairwise(seen)]
-            likeness.append(np.mean([np.corrcoef(a.ravel(), b.ravel())[0, 1] for a, b in pairs]))
-        best = int(np.argmax(likeness))
-        assert best > 0
-        before, at, after = likeness[best - 1 : best + 2]
-        shift = best + 0.5 * (before - after) / (before - 2.0 * at + after)
-        asked = np.sqrt(1.5**2 + 2.0 * 7.0 * 0.5 * (low + high))
-        speeds.append(shift * pixel * rate / asked)
-        assert at > 0.8
+    block = flame_library.load("calm")
+    rows = slice(int(0.3 * length / pixel), int(0.9 * length / pixel))
+    likeness = []
+    for shift in range(5):
+        later = slice(rows.start + shift, rows.stop + shift)
+        pairs = [(a[rows], b[later]) for a, b in itertools.pairwise(seen)]
+        likeness.append(np.mean([np.corrcoef(a.ravel(), b.ravel())[0, 1] for a, b in pairs]))
+    best = int(np.argmax(likeness))
+    assert best > 0
+    before, at, after = likeness[best - 1 : best + 2]
+    shift = best + 0.5 * (before - after) / (before - 2.0 * at + after)
+    gas = block.rise[int(0.3 / block.cell) : int(0.9 / block.cell)].mean() * np.sqrt(9.81 * length)
     # The tips and the foot of a flame stay where they are, so the pattern lags behind the gas.
-    assert min(speeds) > 0.4
-    assert max(speeds) < 1.2
+    assert 0.4 < shift * pixel * rate / gas < 1.2
+    assert at > 0.8
 
 
 def test_wind_does_not_comb_flames_into_strokes():
     length = 8.0
-    burning = flames([front(length, 0.8 * length)], wind=(4.0, 0.0))
+    burning = flames(front(length), wind=(0.0, 4.0))
     origins, directions, _, shape = look(length, wide=160, high=60)
     found = volume.march([], origins, directions, np.full((len(origins), 1), 64.0), LIGHT, flames=burning)
     seen = np.log(np.maximum(found[:, 0, :3], 0.0).sum(axis=-1).reshape(shape) + 0.1)
@@ -172,13 +160,11 @@ def test_wind_does_not_comb_flames_into_strokes():
 
 
 def test_a_still_front_does_not_slide():
-    length = 8.0
-    lengths, ground, corner, cell = front(length, 0.8 * length)
-    lines = corner[0] + cell * np.arange(len(lengths))
-    lengths = lengths * (np.abs(lines) < length)
-    centres = []
+    """A front of four lengths, which ends at both sides."""
+    length, centres = 8.0, []
+    burning = front(length, spacing=0.5, LENGTH=lambda x, y: length * (np.abs(x) < 2.0 * length))
     for time in np.arange(0.0, 40.0, 2.0):
-        seen, pixel = opacity(flames([(lengths, ground, corner, cell)], time), length, wide=48, high=6)
+        seen, pixel = opacity(flames(burning, time), length, wide=48, high=6)
         across = (np.arange(seen.shape[1]) + 0.5 - seen.shape[1] / 2) * pixel
         centres.append((seen * across).sum() / seen.sum())
     early, late = np.mean(centres[:10]), np.mean(centres[10:])
@@ -186,70 +172,67 @@ def test_a_still_front_does_not_slide():
     assert abs(late - early) < 0.1 * length
 
 
-def test_nothing_burns_outside_of_the_squares():
-    square = front(5.0, 1e6, half=2.0)
-    burning = flames([square], wind=(4.0, 0.0))
-    edge = -square[2][0]
-    heights = np.linspace(0.1, 12.0, 40)
-    for x, dark in ((edge + 0.1, True), (0.0, False)):
+def test_nothing_burns_outside_of_the_patches():
+    nodes, corners, spacings = front(5.0)
+    east = corners[:, 0] > -1.0
+    burning = flames((nodes[east], corners[east], spacings[east]), wind=(4.0, 0.0))
+    heights = np.linspace(0.1, 6.0, 40)
+    for x, dark in ((-0.1, True), (3.0, False)):
         origins = np.column_stack([np.full(40, x), np.full(40, -100.0), heights])
         found = volume.march(
             [], origins, np.tile((0.0, 1.0, 0.0), (40, 1)), np.full((40, 1), 300.0), LIGHT, flames=burning
         )
         assert np.all(found[:, 0, 3] == 1.0) == dark
-    assert (
-        volume.march([], [0.0, 0.0, -5.0], [[0.0, 0.0, -1.0]], [[100.0]], LIGHT, flames=burning)[0, 0, 3]
-        == 1.0
-    )
+    below = volume.march([], [1.0, 0.0, -5.0], [[0.0, 0.0, -1.0]], [[100.0]], LIGHT, flames=burning)
+    assert below[0, 0, 3] == 1.0
 
 
 def test_surfaces_cut_flames_and_smoke_dims_them():
     origins, directions = np.array([[0.0, -60.0, 2.0]]), np.array([[0.0, 1.0, 0.0]])
-    burning = flames([front(18.0, 14.0)])
-    alone = volume.march([], origins, directions, [[30.0, 54.0, 120.0]], LIGHT, flames=burning)[0]
+    ends = [[30.0, 57.0, 120.0]]
+    burning = flames(front(18.0))
+    alone = volume.march([], origins, directions, ends, LIGHT, flames=burning)[0]
     assert alone[0, 3] == 1.0  # a surface before the flames
     assert alone[0, 3] > alone[1, 3] >= alone[2, 3]
     assert alone[1, 3] > 0.0
     fields = dict.fromkeys(("fresh", "sun", "sky", "glow"), np.zeros((9, 9, 9)))
     smoke = volume.Bricks(np.full((9, 9, 9), 0.05), **fields, voxel_size=4.0, origin=(-16.0, -56.0, -16.0))
-    both = volume.march([smoke], origins, directions, [[30.0, 54.0, 120.0]], LIGHT, 0.5, 1e-7, burning)[0]
+    both = volume.march([smoke], origins, directions, ends, LIGHT, 0.5, 1e-7, burning)[0]
     before = both[0, 3]
     assert before == pytest.approx(np.exp(-0.05 * 26.0), rel=0.01)
-    assert both[1, 3] == pytest.approx(np.exp(-0.05 * 32.0) * alone[1, 3], rel=0.02)
-    assert both[1, :3] == pytest.approx(np.exp(-0.05 * 32.0) * alone[1, :3], rel=0.02)
+    assert both[1, 3] == pytest.approx(np.exp(-0.05 * 31.0) * alone[1, 3], rel=0.06)
+    assert both[1, :3] == pytest.approx(np.exp(-0.05 * 31.0) * alone[1, :3], rel=0.06)
 
 
 def test_smoke_begins_outside_of_flames():
     """A flame's own soot glows: smoke in the same place dims only what is between its tongues."""
     origins, directions = np.array([[0.0, -60.0, 2.0]]), np.array([[0.0, 1.0, 0.0]])
-    burning, ends = flames([front(18.0, 14.0)], extinction=1e-3), [[120.0]]
+    burning, ends = flames(front(18.0), extinction=[(18.0, 1e-3, 1.0)]), [[120.0]]
     alone = volume.march([], origins, directions, ends, LIGHT, flames=burning, parts=True)[0, 0]
     fields = dict.fromkeys(("fresh", "sun", "sky", "glow"), np.zeros((9, 9, 9)))
     smoke = volume.Bricks(np.full((9, 9, 9), 0.05), **fields, voxel_size=4.0, origin=(-16.0, -16.0, -16.0))
     both = volume.march([smoke], origins, directions, ends, LIGHT, 0.5, 1e-7, burning, parts=True)[0, 0]
     clear = -np.log(both[7]) / 0.05  # m of smoke that are left of 32
-    assert 32.0 - 14.0 < clear < 32.0 - 7.0
+    assert 32.0 - 9.0 < clear < 32.0 - 1.0
     assert both[4] < alone[4]
 
 
-def test_frames_repeat_bit_for_bit_and_move_little_in_a_moment():
+def test_frames_repeat_bit_for_bit_in_any_order_of_rays():
     origins, directions, _, _ = look(5.0)
     ends = np.full((len(origins), 1), 40.0)
 
-    def picture(time):
-        return volume.march([], origins, directions, ends, LIGHT, flames=flames([front(5.0, 4.0)], time))
+    def picture(rows=slice(None)):
+        burning = flames(front(5.0), 1.0e5, pixel=1.0 / 64.0)
+        return volume.march([], origins[rows], directions[rows], ends[rows], LIGHT, flames=burning)
 
-    first = picture(1.0e5)
-    assert np.array_equal(first, picture(1.0e5))
-    assert np.abs(picture(1.0e5 + 1e-3) - first).mean() < 0.02 * first[..., :3].mean() + 1e-3
+    first, some = picture(), np.random.default_rng(1).permutation(len(origins))[:1000]
+    assert np.array_equal(first, picture())
+    assert np.array_equal(first[some], picture(some))
 
 
 def test_a_ray_meets_the_same_flames_wherever_it_starts():
     """Steps over empty ground skip no flames."""
-    lengths = np.zeros((61, 61), np.float32)
-    lengths[30] = 12.0
-    coarse = lengths, np.zeros_like(lengths), (-240.0, -240.0), 8.0
-    burning = flames([coarse], wind=(3.0, 1.0))
+    burning = flames(front(12.0, half=(5.0, 15.0), spacing=8.0), wind=(3.0, 1.0))
     across = np.linspace(-60.0, 60.0, 200)
     ends = np.column_stack([across, np.full(200, 25.0), np.full(200, 1.0)])
     ahead = np.array([0.0, 1.0, -0.15]) / np.hypot(1.0, 0.15)
@@ -263,22 +246,22 @@ def test_a_ray_meets_the_same_flames_wherever_it_starts():
     assert max(np.abs(each - seen[0]).mean() for each in seen[1:]) < 0.02
 
 
-def test_a_crown_in_flames_is_as_wide_as_the_tree_and_rooted():
+def test_a_crown_in_flames_is_as_wide_as_the_tree_over_its_trunk():
     crown = np.array([[0.0, 0.0, 0.0, 4.0, 28.0, 3.0]])
-    empty = [(np.zeros((41, 41)), np.zeros((41, 41)), (-40.0, -40.0), 2.0)]
-    widths, rows = [], None
+    rows, pixel = [], 0.0
     for time in (3.0, 7.7, 13.1):
-        seen, pixel = opacity(flames(empty, time, spindles=crown), 20.0)
-        rows = (seen > 0.3).sum(axis=1) * pixel
-        widths.append(rows[int(5.0 / pixel) : int(14.0 / pixel)].mean())
-        assert rows[: int(4.0 / pixel)].min() > 0.0  # flames climb the trunk
-    assert 3.0 < np.mean(widths) < 8.0
+        seen, pixel = opacity(flames(UNBURNT, time, spindles=crown), 20.0)
+        rows.append((seen > 0.3).sum(axis=1) * pixel)
+    wide = np.mean(rows, axis=0)
+    middle = slice(int(6.0 / pixel), int(14.0 / pixel))
+    assert 2.0 < wide[middle].mean() < 8.0
+    assert wide[: int(1.5 / pixel)].max() < 0.5 * wide[middle].mean()
+    assert 14.0 < np.flatnonzero(wide).max() * pixel < 36.0
 
 
 def test_a_crown_burns_upright_at_its_middle():
     crown = np.array([[0.0, 0.0, 0.0, 4.0, 24.0, 3.2]])
-    empty = [(np.zeros((41, 41)), np.zeros((41, 41)), (-40.0, -40.0), 2.0)]
-    seen, pixel = opacity(flames(empty, spindles=crown, wind=(3.0, 0.0)), 18.0)
+    seen, pixel = opacity(flames(UNBURNT, spindles=crown, wind=(3.0, 0.0)), 18.0)
     across = (np.arange(seen.shape[1]) + 0.5 - seen.shape[1] / 2) * pixel
     rows = slice(int(6.0 / pixel), int(10.0 / pixel))
     assert abs((seen[rows] * across).sum() / seen[rows].sum()) < 2.0
@@ -289,7 +272,7 @@ def test_a_crown_burns_upright_at_its_middle():
 def test_the_light_of_flames_is_apart_from_smoke():
     origins, directions, _, _ = look(5.0)
     ends = np.full((len(origins), 1), 40.0)
-    burning = flames([front(5.0, 4.0)], 3.0)
+    burning = flames(front(5.0), 3.0)
     found = volume.march([], origins, directions, ends, LIGHT, flames=burning, parts=True)[:, 0]
     assert found[:, 0].max() > 0.0
     assert np.array_equal(found[:, 4:7], found[:, :3])
