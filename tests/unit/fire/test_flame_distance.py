@@ -5,18 +5,15 @@ import pytest
 from firetwin.render import flame_distance
 from firetwin.render.rays import Rays
 from firetwin_core import volume
-from flame_field import flames
+from flame_field import flames, front
 from march_light import NO_LIGHT
 
 LIGHT = volume.Illumination(**NO_LIGHT)
 
 
-def line(away, depth=8.0, length=6.0):
-    """Flames on level ground at y from `away` to `away` + `depth`, m."""
-    y = np.arange(-10.0, 90.0, 0.5)
-    lengths = np.where((y >= away) & (y <= away + depth), length, 0.0)[:, None] * np.ones(len(y))
-    square = lengths.astype(np.float32), np.zeros(lengths.shape, np.float32), (-50.0, -10.0), 0.5
-    return flames([square])
+def line(away):
+    """Flames of 6 m on level ground at y from `away`, m, which move towards the camera."""
+    return flames(front(6.0, half=(5.0, 20.0), DISTANCE=lambda x, y: y - away, NORTH=-1.0))
 
 
 @pytest.mark.parametrize("away", [15.0, 60.0])
