@@ -13,6 +13,7 @@ HALF = 2.0**-10  # relative rounding of half precision
 
 
 ORIGIN = (1024.0, -2048.0, 300.0)
+EYE = (984.0, -2048.0, 300.0)
 
 
 def front_of(height=6.0, **changes):
@@ -24,7 +25,7 @@ def front_of(height=6.0, **changes):
         LENGTH=lambda x, y: height * (np.abs(x) < max(6.0, height)),
     )
     patches = nodes, corners + ORIGIN[:2], spacings
-    return flames(patches, 7.0, (0.0, 1.0), origin=ORIGIN, soot=0.01, **changes)
+    return flames(patches, 7.0, (0.0, 1.0), origin=EYE, soot=0.01, **changes)
 
 
 @pytest.fixture
@@ -83,7 +84,7 @@ def test_no_flame_is_left_out(written):
 
 
 def test_flames_fade_out_with_the_distance(tmp_path):
-    near = write_flames(tmp_path / "near.vdb", front_of(fade=(3.0, 6.0)), VOXEL)
+    near = write_flames(tmp_path / "near.vdb", front_of(fade=(36.0, 44.0)), VOXEL)
     full = write_flames(tmp_path / "full.vdb", front_of(), VOXEL)
     none = write_flames(tmp_path / "none.vdb", front_of(0.0), VOXEL)
     assert 0 < near.active_voxels < 0.8 * full.active_voxels

@@ -23,7 +23,9 @@ def test_half_of_the_light_is_emitted_within_the_depth_of_a_front(away):
     ahead /= np.linalg.norm(ahead, axis=-1, keepdims=True)
     rays = Rays(np.array([0.0, 0.0, 0.8]), ahead, np.zeros((1, 30)), None)
     found = flame_distance.measure(line(away), rays, LIGHT, 200.0, 1.0) * ahead[..., 1]
-    assert np.all((found > 0.9 * away - 1.0) & (found < 1.1 * away + 8.0))
+    burning = found[found > 0.0]
+    assert burning.size > 0.7 * found.size  # others see through gaps
+    assert np.all((burning > 0.9 * away - 1.0) & (burning < 1.1 * away + 8.0))
     assert flame_distance.measure(line(away), rays, LIGHT, 200.0, 1.0e6).max() == 0.0
 
 
