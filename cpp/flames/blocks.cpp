@@ -143,7 +143,7 @@ void FlameBlock::mark_burning() {
   cubes_ = {(nz + cube - 1) / cube, (ny + cube - 1) / cube, (nx + cube - 1) / cube};
   const auto [up, along, across] = cubes_;
   const std::int64_t count = up * along * across;
-  burning_.assign(static_cast<std::size_t>(loop() * count), 0);
+  burning_.assign(static_cast<std::size_t>(frames * count), 0);
   const auto mark = [&](std::int64_t frame, std::int64_t k, std::int64_t j, std::int64_t i) {
     for (std::int64_t n = 0; n < 27; ++n) {
       const std::int64_t above = k + n / 9 - 1, right = i + n % 3 - 1;
@@ -155,8 +155,6 @@ void FlameBlock::mark_burning() {
     }
   };
   for (std::int64_t frame = 0; frame < frames; ++frame) {
-    // Frames of the loop that use this one: itself, the one before, and those into which it fades.
-    const std::array<std::int64_t, 4> users{frame, frame - 1, frame - loop(), frame - loop() - 1};
     for (std::int64_t k = 0; k < up; ++k) {
       for (std::int64_t j = 0; j < along; ++j) {
         for (std::int64_t i = 0; i < across; ++i) {
@@ -164,10 +162,9 @@ void FlameBlock::mark_burning() {
           if (!from.burns({k * cube, j * cube, i * cube}, cube)) {
             continue;
           }
-          for (const std::int64_t user : users) {
-            if (user >= 0 && user < loop()) {
-              mark(user, k, j, i);
-            }
+          mark(frame, k, j, i);
+          if (frame > 0) {
+            mark(frame - 1, k, j, i);
           }
         }
       }
@@ -199,24 +196,12 @@ double FlameBlock::period() const {
   return static_cast<double>(shape_[0] - scale_.fade) * static_cast<double>(scale_.interval);
 }
 
-/// The last frames fade into the first: there both ends of the loop count.
 FlameBlock::Parts FlameBlock::parts_at(float time) const {
-  const auto loop = static_cast<float>(shape_[0] - scale_.fade);
-  const float at = std::clamp(time / scale_.interval, 0.0F, loop - 1.0e-3F);
+  const float at =
+      std::clamp(time / scale_.interval, 0.0F, static_cast<float>(shape_[0] - 1) - 1.0e-3F);
   const auto frame = static_cast<std::int64_t>(at);
   const float part = at - static_cast<float>(frame);
-  Parts out{};
-  const auto add = [&](std::int64_t first, float weight) {
-    const std::int64_t last = shape_[0] - 1;
-    out.part[out.count++] = {std::min(first, last), weight * (1.0F - part), part};
-    out.part[out.count++] = {std::min(first + 1, last), weight * part, part - 1.0F};
-  };
-  const float old = scale_.fade > 0 ? 1.0F - at / static_cast<float>(scale_.fade) : 0.0F;
-  add(frame, old > 0.0F ? 1.0F - old : 1.0F);
-  if (old > 0.0F) {
-    add(shape_[0] - scale_.fade + frame, old);
-  }
-  return out;
+  return {{{frame, 1.0F - part, part}, {frame + 1, part, part - 1.0F}}};
 }
 
 void FlameBlock::rise_at(const Lanes& up, Lanes& cells) const {
@@ -234,13 +219,13 @@ void FlameBlock::codes(const BlockPlaces& places, float time, Lanes& out) const 
               z = places.up * inverse - 0.5F;
   out = Lanes{};
   const Parts parts = parts_at(time);
-  if (!burns(parts.part[0].frame, x, y, z)) {
+  if (!burns(parts[0].frame, x, y, z)) {
     return;
   }
   Lanes risen;
   rise_at(z, risen);
-  for (std::size_t n = 0; n < parts.count; ++n) {
-    add_codes(parts.part[n], x, y, z - risen * parts.part[n].risen, out);
+  for (const Part& part : parts) {
+    add_codes(part, x, y, z - risen * part.risen, out);
   }
   out *= 1.0F / full;
 }
@@ -293,7 +278,7 @@ void FlameBlock::coarse(int number, const BlockPlaces& places, float time, Coars
   const float inverse = 1.0F / scale_.cell, coarser = 1.0F / static_cast<float>(1 << number);
   out = CoarseFlame{Lanes{}, Lanes{}};
   const Parts parts = parts_at(time);
-  if (!burns(parts.part[0].frame, places.across * inverse, places.along * inverse,
+  if (!burns(parts[0].frame, places.across * inverse, places.along * inverse,
              places.up * inverse)) {
     return;
   }
@@ -301,8 +286,8 @@ void FlameBlock::coarse(int number, const BlockPlaces& places, float time, Coars
   rise_at(places.up * inverse - 0.5F, risen);
   const Lanes x = places.across * (inverse * coarser) - 0.5F,
               y = places.along * (inverse * coarser) - 0.5F, z = places.up * inverse;
-  for (std::size_t n = 0; n < parts.count; ++n) {
-    add_coarse(from, parts.part[n], x, y, (z - risen * parts.part[n].risen) * coarser - 0.5F, out);
+  for (const Part& part : parts) {
+    add_coarse(from, part, x, y, (z - risen * part.risen) * coarser - 0.5F, out);
   }
   out.extinction *= 1.0F / full;
   out.hot *= 1.0F / full;

@@ -57,7 +57,11 @@ public:
   /// Time after which the block repeats, over sqrt(L / g).
   double period() const;
 
-  /// Computes the codes, 0 to 1, at eight places and a time within the period.
+  /// Time for which the next loop fades in over the last frames of this one, over sqrt(L / g).
+  float fading() const { return scale_.interval * static_cast<float>(scale_.fade); }
+
+  /// Computes the codes, 0 to 1, at eight places and a time since a loop began: up to `fading`
+  /// after the period.
   void codes(const BlockPlaces& places, float time, Lanes& out) const;
   /// Computes a coarser level, from 1 on.
   void coarse(int level, const BlockPlaces& places, float time, CoarseFlame& out) const;
@@ -73,13 +77,9 @@ private:
     std::int64_t frame;
     float weight, risen;
   };
-  struct Parts {
-    std::array<Part, 4> part;
-    std::size_t count;
-  };
+  using Parts = std::array<Part, 2>;
 
   Parts parts_at(float time) const;
-  std::int64_t loop() const { return shape_[0] - scale_.fade; }
   void mark_burning();
   bool burns(std::int64_t frame, const Lanes& x, const Lanes& y, const Lanes& z) const;
   void rise_at(const Lanes& up, Lanes& cells) const;
@@ -95,7 +95,7 @@ private:
   BlockScale scale_;
   std::vector<float> rise_; ///< cells in an interval
   /// Whether something burns in a cube of cells or in its neighbours until the next frame.
-  std::vector<std::uint8_t> burning_; // [loop][up][along][across]
+  std::vector<std::uint8_t> burning_; // [frame][up][along][across]
   std::array<std::int64_t, 3> cubes_{};
   mutable std::once_flag built_;
   mutable std::array<Level, levels> levels_;

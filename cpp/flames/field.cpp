@@ -14,7 +14,6 @@ namespace firetwin::flames {
 namespace {
 
 constexpr float shortest = 0.05F;      // m, length of flames that are drawn
-constexpr float segment_length = 3.0F; // flame lengths along the front
 constexpr float overlap = 0.8F;        // part of a segment from which the next one fades in
 constexpr std::array<float, 2> octave_blend{0.4F, 0.6F}; // octaves between rounded lengths
 constexpr std::array<float, 2> turned{0.8725F, 0.9625F}; // cosines of 29 and 16 degrees
@@ -100,11 +99,39 @@ void add_block(const FlameBlock& block, const BlockPlaces& places, float time,
   add(levels.number + 1, levels.part);
 }
 
-float moment(const FlameBlock& block, double time, float length, double phase) {
+/// A moment of a block that repeats in other places: each loop fades in over the end of the one
+/// before.
+struct Moment {
+  std::int64_t loop;
+  float time; ///< since the loop began, over sqrt(L / g)
+  float part; ///< share of this loop; the rest is of the one before
+};
+
+Moment moment(const FlameBlock& block, double time, float length, double phase) {
   const double period = block.period();
   const double at =
       time / std::sqrt(static_cast<double>(length) / constants::gravity) + phase * period;
-  return static_cast<float>(at - period * std::floor(at / period));
+  const double loop = std::floor(at / period);
+  const auto since = static_cast<float>(at - period * loop);
+  const float part = block.fading() > 0.0F ? std::min(since / block.fading(), 1.0F) : 1.0F;
+  return {static_cast<std::int64_t>(loop), since, part};
+}
+
+/// Number, 0 to 1, of a loop: numbers of successive loops are far apart.
+double spread(double first, std::int64_t loop) {
+  const double at = first + static_cast<double>(loop) / std::numbers::phi;
+  return at - std::floor(at);
+}
+
+/// Calls a function with the loops of a moment, their times and their shares.
+template <class Function>
+void each_loop(const FlameBlock& block, const Moment& now, const Function& function) {
+  if (now.part > 0.0F) {
+    function(now.loop, now.time, now.part);
+  }
+  if (now.part < 1.0F) {
+    function(now.loop - 1, now.time + static_cast<float>(block.period()), 1.0F - now.part);
+  }
 }
 
 } // namespace
@@ -388,6 +415,9 @@ void FlameField::add_line(const Line& line, const Octave& octave, GasLanes& out)
 FIRETWIN_CLONES("avx2")
 void FlameField::add_segments(const Line& line, int octave, int direction, const Lanes& weight,
                               GasLanes& out) const {
+  // A segment with the end of the one before is as long as the block: nothing repeats in it.
+  const FlameBlock& block = *library_.lines()[line.kind].front();
+  const float segment_length = block.along() / (2.0F - overlap);
   const double scale = static_cast<double>(segment_length) * std::exp2(octave);
   const auto [east, north] = axes[static_cast<std::size_t>(direction)];
   // Segments of neighbouring rows are not side by side.
@@ -427,13 +457,16 @@ void FlameField::add_segment(const Segment& segment, GasLanes& out) const {
   }
   const auto& kind = library_.lines()[line.kind];
   const FlameBlock& block = *kind[hash % kind.size()];
-  const auto offset = static_cast<float>(unit(murmur_finalizer(hash + 1U))) * block.along();
-  const bool mirrored = (hash & 64U) != 0;
-  const BlockPlaces places{block.scale().front - line.across,
-                           offset + (mirrored ? -segment.along : segment.along), line.height};
+  const double first = unit(murmur_finalizer(hash + 1U));
   const auto length = std::exp2(static_cast<float>(segment.octave));
-  const float time = moment(block, time_, length, unit(murmur_finalizer(hash + 2U)));
-  add_block(block, places, time, line.levels, segment.weight, out);
+  const Moment now = moment(block, time_, length, unit(murmur_finalizer(hash + 2U)));
+  each_loop(block, now, [&](std::int64_t loop, float time, float share) {
+    const auto offset = static_cast<float>(spread(first, loop)) * block.along();
+    const bool mirrored = ((loop + static_cast<std::int64_t>(hash >> 6U)) & 1) != 0;
+    const BlockPlaces places{block.scale().front - line.across,
+                             offset + (mirrored ? -segment.along : segment.along), line.height};
+    add_block(block, places, time, line.levels, segment.weight * share, out);
+  });
 }
 
 /// Adds crowns; where they overlap, the one with more gas counts.
@@ -466,11 +499,6 @@ void FlameField::add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, floa
     const float wide = 1.0F / FlameCrowns::size(crown);
     const Lanes dx = (x - crown.x - static_cast<float>(shape_.wind[0]) * away) * wide,
                 dy = (y - crown.y - static_cast<float>(shape_.wind[1]) * away) * wide;
-    const auto turn =
-        static_cast<float>(2.0 * std::numbers::pi * unit(murmur_finalizer(hash + 1U)));
-    const float cosine = std::cos(turn), sine = std::sin(turn);
-    const BlockPlaces places{block.scale().front + dx * cosine + dy * sine,
-                             0.5F * block.along() + dy * cosine - dx * sine, up};
     const BlockLevels levels(size, block.scale().cell * crown.top);
     const float octave = std::log2(crown.top), low = std::floor(octave);
     const float part = smoothstep(octave_blend[0], octave_blend[1], octave - low);
@@ -479,8 +507,15 @@ void FlameField::add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, floa
       const float weight = next == 0 ? 1.0F - part : part;
       if (weight > 0.0F) {
         const float length = std::exp2(low + static_cast<float>(next));
-        const float time = moment(block, time_, length, unit(murmur_finalizer(hash + 2U)));
-        add_block(block, places, time, levels, Lanes{} + weight, own);
+        const Moment now = moment(block, time_, length, unit(murmur_finalizer(hash + 2U)));
+        each_loop(block, now, [&](std::int64_t loop, float time, float share) {
+          const auto turn = static_cast<float>(
+              2.0 * std::numbers::pi * spread(unit(murmur_finalizer(hash + 1U)), loop));
+          const float cosine = std::cos(turn), sine = std::sin(turn);
+          const BlockPlaces places{block.scale().front + dx * cosine + dy * sine,
+                                   0.5F * block.along() + dy * cosine - dx * sine, up};
+          add_block(block, places, time, levels, Lanes{} + weight * share, own);
+        });
       }
     }
     const Lanes fine = Lanes{} + levels.fine();

@@ -40,8 +40,8 @@ struct FlameSamples {
 /// "Measurements of the dynamics of flames"; P. H. Thomas 1963, Symp. (Int.) Combust. 9, 844-859).
 /// Across the front a point's place in a block is its foot's distance from the front over L; along
 /// the front, and in time, L is rounded to a power of 2, so that the pattern does not slide where L
-/// changes. Every three lengths along the front another part of another block is taken at another
-/// time, by a hash. Wind chooses the block, and leans what the block does not hold. Behind the
+/// changes. Segments along the front take other parts of other blocks at other times, by a hash,
+/// and each loop of a segment takes another part too: flames do not repeat. Wind chooses the block, and leans what the block does not hold. Behind the
 /// front low flames stand in rows. Nothing depends on other times or on the camera.
 class FlameField {
 public:
