@@ -459,7 +459,9 @@ void FlameField::add_segment(const Segment& segment, GasLanes& out) const {
   const FlameBlock& block = *kind[hash % kind.size()];
   const double first = unit(murmur_finalizer(hash + 1U));
   const auto length = std::exp2(static_cast<float>(segment.octave));
-  const Moment now = moment(block, time_, length, unit(murmur_finalizer(hash + 2U)));
+  // Neighbours are far apart in time.
+  const double phase = spread(unit(lattice_hash(segment.octave, salt, 1)), segment.number);
+  const Moment now = moment(block, time_, length, phase);
   each_loop(block, now, [&](std::int64_t loop, float time, float share) {
     const auto offset = static_cast<float>(spread(first, loop)) * block.along();
     const bool mirrored = ((loop + static_cast<std::int64_t>(hash >> 6U)) & 1) != 0;

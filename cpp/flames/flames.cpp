@@ -16,7 +16,7 @@ constexpr float most_step = 0.2F;                   // of the flame length
 constexpr std::array<float, 2> at_lens{0.4F, 2.0F}; // m, distances up to which flames are left out
 constexpr float thin_flame = 1.0e-4F;               // 1/m, extinction that is left out
 constexpr float thin_gas = 1.0e-3F;                 // code that is left out
-constexpr float typical_path = 0.3F; // way through the sootiest gas of a flame, in its lengths
+constexpr float typical_path = 0.06F; // way through the sootiest gas of a flame, in its lengths
 constexpr float whole = 0.999F;      // share from which flames are not thinned out
 
 /// Returns the extinction, 1/m, of flames that fill a share of their drawn length: it lets as much
