@@ -40,6 +40,7 @@ FlameCrowns::FlameCrowns(std::span<const Spindle> crowns, const FlameShape& shap
     each.x -= static_cast<float>(origin[0]);
     each.y -= static_cast<float>(origin[1]);
     each.z -= static_cast<float>(origin[2]);
+    each.top *= burning_over_seen;
     const float flight = lean * shape.flight_to((tall - upright) * each.top);
     const float dx = static_cast<float>(shape.wind[0]) * flight,
                 dy = static_cast<float>(shape.wind[1]) * flight, half = wide * size(each);

@@ -9,6 +9,10 @@
 
 namespace firetwin::flames {
 
+/// Length of a solved flame, to where half of the time gas burns, over the length up to which it is
+/// seen (measured on pictures of opaque flames, see tests/unit/fire/test_flames.py).
+constexpr float burning_over_seen = 1.3F;
+
 /// Wind that carries the gas of flames, and how fast it rises.
 struct FlameShape {
   std::array<double, 2> wind{}; ///< m/s east and north

@@ -168,6 +168,8 @@ void FlameTiles::add_patches(const FlamePatches& patches, const Vector& origin) 
                 each * sizeof(Node));
     for (Node& node : made.nodes) {
       node[ground_channel] -= static_cast<float>(origin[2]);
+      node[length_channel] *= burning_over_seen;
+      node[low_channel] *= burning_over_seen;
     }
     made.x = static_cast<float>(patches.corner[2 * n] - origin[0]);
     made.y = static_cast<float>(patches.corner[2 * n + 1] - origin[1]);
