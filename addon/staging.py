@@ -87,13 +87,13 @@ def rests(folder: Path, pattern: str) -> list[str]:
     in_use = []
     with contextlib.suppress(OSError):
         for each in folder.iterdir():
-            found = re.fullmatch(rf"\.(?P<name>{pattern})\.[0-9a-f]{{12}}\.part", each.name)
-            if found and each.is_dir() and not each.is_symlink():
+            part = re.fullmatch(rf"\.(?P<name>{pattern})\.[0-9a-f]{{12}}\.part", each.name)
+            if part and each.is_dir() and not each.is_symlink():
                 with locked(each) as is_alone:
                     if is_alone:
                         shutil.rmtree(each, ignore_errors=True)
                     else:
-                        in_use.append(found["name"])
+                        in_use.append(part["name"])
     return in_use
 
 

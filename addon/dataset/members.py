@@ -50,10 +50,10 @@ def folder(path: Path, member: str) -> Path:
     Raises
     ------
     InputError
-        The name of the member is no name of a folder.
+        The name of the member cannot name a folder.
     """
     if not is_plain_name(member):
-        raise input_error(path, f"has a member {member!r}, which is no name of a folder; rename it")
+        raise input_error(path, f"has a member {member!r}, which cannot name a folder; rename it")
     return path.parent / f"{path.name}_members" / member
 
 

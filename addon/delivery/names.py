@@ -93,7 +93,7 @@ def choose(out: Path, pattern: str, start: int) -> Selection:
     Raises
     ------
     InputError
-        The folder has no finished files, or its manifest has values that are no part of a file name.
+        The folder has no finished files, or its manifest has values that cannot be part of a file name.
     UsageError
         The pattern gives two files the same name.
     """
@@ -133,7 +133,7 @@ def _checked(out: Path, path: str, entry: dict[str, Any]) -> dict[str, Any]:
     Raises
     ------
     InputError
-        One is no part of a file name, such as ``../x``.
+        One cannot be part of a file name, such as ``../x``.
     """
     values = [entry["camera"], entry["pass"], PurePosixPath(path).suffix[1:], entry.get("film") or "review"]
     texts = [passes.file_stem(each) if isinstance(each, str) else "" for each in values]
@@ -142,7 +142,7 @@ def _checked(out: Path, path: str, entry: dict[str, Any]) -> dict[str, Any]:
         return entry
     raise input_error(
         out / manifest.NAME,
-        f"names {path!r} with values that are no parts of a file name; render it again with --resume",
+        f"names {path!r} with values that cannot be part of a file name; render it again with --resume",
     )
 
 

@@ -127,19 +127,19 @@ def _accepted(entry: Any) -> Accepted:
     TypeError, ValueError
         It is not one: its numbers become names of folders.
     """
-    found = Accepted(**entry)
+    accepted = Accepted(**entry)
     for each in fields(Accepted):
-        value = getattr(found, each.name)
+        value = getattr(accepted, each.name)
         kinds: tuple[type, ...] = {"int": (int,), "float": (int, float)}.get(str(each.type), (str,))
         if not isinstance(value, kinds) or isinstance(value, bool):
             raise TypeError(f"{each.name} is {value!r}")
-    if found.generation < 1 or found.revision < 1 or not math.isfinite(found.seconds):
+    if accepted.generation < 1 or accepted.revision < 1 or not math.isfinite(accepted.seconds):
         raise ValueError("a number is out of range")
-    if found.moment.tzinfo is None or found.clock < 0.0:
+    if accepted.moment.tzinfo is None or accepted.clock < 0.0:
         raise ValueError("a time has no zone")
-    for moment in (found.moment, found.origin):
+    for moment in (accepted.moment, accepted.origin):
         moment.astimezone(UTC)
-    return found
+    return accepted
 
 
 def last_generation(accepted: list[Accepted]) -> list[Accepted]:

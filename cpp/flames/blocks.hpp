@@ -94,7 +94,7 @@ private:
   Shape shape_;
   BlockScale scale_;
   std::vector<float> rise_; ///< cells in an interval
-  /// Whether something burns in a cube of cells or in its neighbours until the next frame.
+  /// 1 if something burns in a cube of cells or in its neighbours until the next frame.
   std::vector<std::uint8_t> burning_; // [frame][up][along][across]
   std::array<std::int64_t, 3> cubes_{};
   mutable std::once_flag built_;

@@ -13,8 +13,8 @@
 namespace firetwin::flames {
 namespace {
 
-constexpr float shortest = 0.05F;      // m, length of flames that are drawn
-constexpr float overlap = 0.8F;        // part of a segment from which the next one fades in
+constexpr float shortest = 0.05F; // m, length of flames that are drawn
+constexpr float overlap = 0.8F;   // part of a segment from which the next one fades in
 constexpr std::array<float, 2> octave_blend{0.4F, 0.6F}; // octaves between rounded lengths
 constexpr std::array<float, 2> turned{0.8725F, 0.9625F}; // cosines of 29 and 16 degrees
 constexpr float row_spacing = 1.1F;                      // of low flames, in their lengths
@@ -136,7 +136,7 @@ void each_loop(const FlameBlock& block, const Moment& now, const Function& funct
 
 } // namespace
 
-/// Where the gas at eight points rose from, and what burns there.
+/// Places from which the gas at eight points rose, with their nodes.
 struct FlameField::Foot {
   Lanes x, y; ///< m
   NodeLanes node;
@@ -511,8 +511,8 @@ void FlameField::add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, floa
         const float length = std::exp2(low + static_cast<float>(next));
         const Moment now = moment(block, time_, length, unit(murmur_finalizer(hash + 2U)));
         each_loop(block, now, [&](std::int64_t loop, float time, float share) {
-          const auto turn = static_cast<float>(
-              2.0 * std::numbers::pi * spread(unit(murmur_finalizer(hash + 1U)), loop));
+          const auto turn = static_cast<float>(2.0 * std::numbers::pi *
+                                               spread(unit(murmur_finalizer(hash + 1U)), loop));
           const float cosine = std::cos(turn), sine = std::sin(turn);
           const BlockPlaces places{block.scale().front + dx * cosine + dy * sine,
                                    0.5F * block.along() + dy * cosine - dx * sine, up};

@@ -36,13 +36,14 @@ struct FlameSamples {
 
 /// Flames as a function of place and time: solved fires, scaled by the length of the flames.
 ///
-/// Lengths go with L and times with sqrt(L / g) (Froude scaling: W. D. Weatherford 1965,
-/// "Measurements of the dynamics of flames"; P. H. Thomas 1963, Symp. (Int.) Combust. 9, 844-859).
+/// Lengths go with L and times with sqrt(L / g) (Froude scaling: P. H. Thomas 1963, "The size of
+/// flames from natural fires", Symp. (Int.) Combust. 9, 844-859).
 /// Across the front a point's place in a block is its foot's distance from the front over L; along
 /// the front, and in time, L is rounded to a power of 2, so that the pattern does not slide where L
 /// changes. Segments along the front take other parts of other blocks at other times, by a hash,
-/// and each loop of a segment takes another part too: flames do not repeat. Wind chooses the block, and leans what the block does not hold. Behind the
-/// front low flames stand in rows. Nothing depends on other times or on the camera.
+/// and each loop of a segment takes another part too: flames do not repeat. Wind chooses the block,
+/// and its rest leans the flames. Behind the front low flames stand in rows. Nothing depends on
+/// other times or on the camera.
 class FlameField {
 public:
   static constexpr float below_ground = 0.5F; ///< m below the map's ground that still burns

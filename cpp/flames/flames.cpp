@@ -17,10 +17,10 @@ constexpr std::array<float, 2> at_lens{0.4F, 2.0F}; // m, distances up to which 
 constexpr float thin_flame = 1.0e-4F;               // 1/m, extinction that is left out
 constexpr float thin_gas = 1.0e-3F;                 // code that is left out
 constexpr float typical_path = 0.06F; // way through the sootiest gas of a flame, in its lengths
-constexpr float whole = 0.999F;      // share from which flames are not thinned out
+constexpr float whole = 0.999F;       // share from which flames are not thinned out
 
 /// Returns the extinction, 1/m, of flames that fill a share of their drawn length: it lets as much
-/// light through as the part of the pixel beside them does.
+/// light through as the rest of the pixel does.
 float thinned(float extinction, float length, float drawn, float share) {
   const float covered = share * length / drawn;
   const float through = std::exp(-extinction * length * typical_path);

@@ -12,7 +12,7 @@
 
 namespace firetwin::flames {
 
-/// What burns at a node of the ground.
+/// Values of a node of the ground.
 enum Channel : std::size_t {
   ground_channel,   ///< elevation, m
   length_channel,   ///< length of the front's flames, whatever their age, m

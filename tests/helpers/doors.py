@@ -407,25 +407,25 @@ def call(door: Door, *more: str) -> Call:
     return Call(status, lines[-1] if lines else "")
 
 
-def outcome(made: Call, path: Path, before: bytes) -> Outcome:
+def outcome(done: Call, path: Path, before: bytes) -> Outcome:
     """Describe what a call did to a file of the user."""
     if path.is_file() and path.read_bytes() == before:
-        if made.status == 0:
+        if done.status == 0:
             return "stays"
-        remedy = "; --overwrite" if "--overwrite" in made.said else ""
-        names_it = any(part in made.said for part in path.parts)
-        return f"refused{remedy}" if names_it and "unexpected" not in made.said else made.said
+        remedy = "; --overwrite" if "--overwrite" in done.said else ""
+        names_it = any(part in done.said for part in path.parts)
+        return f"refused{remedy}" if names_it and "unexpected" not in done.said else done.said
     if before in [each.read_bytes() for each in Path().rglob("*") if each.is_file()]:
         return "kept as .blend1"
-    return REPLACED if made.status == 0 else LOST
+    return REPLACED if done.status == 0 else LOST
 
 
 def own(door: Door, path: Path) -> Outcome:
     """Call it twice."""
     call(door)
     before = path.read_bytes()
-    made = call(door)
-    return REPLACED if made.status == 0 and path.is_file() else f"{made.said} {len(before)}"
+    done = call(door)
+    return REPLACED if done.status == 0 and path.is_file() else f"{done.said} {len(before)}"
 
 
 def changed(door: Door, path: Path) -> Outcome:
@@ -471,8 +471,8 @@ def neighbours(door: Door, path: Path) -> Outcome:
     there[1].parent.mkdir()
     for each in there:
         each.write_bytes(MINE)
-    made = call(door)
-    return {outcome(made, each, MINE) for each in there}.pop()
+    done = call(door)
+    return {outcome(done, each, MINE) for each in there}.pop()
 
 
 def link(door: Door, path: Path) -> Outcome:
@@ -499,10 +499,10 @@ def full(door: Door, path: Path) -> Outcome:
     before, limits = path.read_bytes(), resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (0, limits[1]))
     try:
-        made = call(door)
+        done = call(door)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-    said = outcome(made, path, before)
+    said = outcome(done, path, before)
     again = call(door)
     return f"{said}, then {outcome(again, path, before)}" if again.status else said
 
@@ -522,9 +522,9 @@ def killed(door: Door, path: Path) -> Outcome:
         if not path.is_file():
             return LOST
         steps += 1
-    made = call(door)
+    done = call(door)
     rests = [each for each in Path().rglob("*.part") if each.is_dir()]
-    return REPLACED if made.status == 0 and path.is_file() and not rests and before else made.said
+    return REPLACED if done.status == 0 and path.is_file() and not rests and before else done.said
 
 
 def _end_at(step: int) -> None:

@@ -39,10 +39,10 @@ def values(
 ) -> NDArray[np.float32]:
     """Return the values (n, SIDE + 1, SIDE + 1, 8) of patches with these corners (n, 2) and spacing, m."""
     ground, row, column = _mapped(shot.ground, corners, spacing)
-    found = np.zeros((len(corners), SIDE + 1, SIDE + 1, 8), np.float32)
-    found[..., GROUND] = ground
+    nodes = np.zeros((len(corners), SIDE + 1, SIDE + 1, 8), np.float32)
+    nodes[..., GROUND] = ground
     near, out = window.near(row.ravel(), column.ravel(), _AROUND * spacing)
-    flat = found.reshape(-1, 8)
+    flat = nodes.reshape(-1, 8)
     flat[:, DISTANCE] = np.where(out, flame_state.FARTHEST, -flame_state.FARTHEST)
     at = np.flatnonzero(near)
     if len(at):
@@ -53,7 +53,7 @@ def values(
         flat[at, LENGTH : SHARE + 1], depth = _means(shot, window, place, row, column, turn, spacing, wind)
         flat[at, EAST : NORTH + 1] = _direction(shot.ground, row, column, spacing, wind)
         flat[at, DEPTH] = depth
-    return found
+    return nodes
 
 
 def shows(nodes: NDArray[np.float32], spacing: float) -> NDArray[np.bool_]:

@@ -14,8 +14,10 @@ LUMINANCE_DECADES: tuple[float, float]
 """Decades of luminance in a unit of heat, below and above the core's."""
 
 class FlameBlock:
-    """Solved fire: its mixture fraction, frame by frame. Lengths are over the flame length L, times over
-    sqrt(L / g)."""
+    """Solved fire: its mixture fraction, frame by frame.
+
+    Lengths are over the flame length L, times over sqrt(L / g).
+    """
 
     def __init__(
         self,
@@ -100,8 +102,8 @@ class FlameLight:
         coolest, hottest
             Temperatures at heat 0 and 1, K.
         extinction
-            (k, 3) flame lengths, m, with the visible and the infrared extinction of the sootiest gas, 1/m; linear
-            between, constant outside.
+            (k, 3) flame lengths, m, with the visible and the infrared extinction of the sootiest gas, 1/m;
+            linear between, constant outside.
         dim
             Optical depth of 1 km of air in the infrared; it grows with the distance to the power 0.75.
         """
@@ -127,11 +129,11 @@ class FlameVolume:
         Parameters
         ----------
         patches
-            Nodes (n, 33, 33, 8), corners (n, 2) and spacings (n) of squares of the ground, m. A place takes the
-            finest patch that contains it; nothing burns outside. Rows of nodes run north. Channels: elevation;
-            length of the front's flames, m; distance behind the front, m; height of low flames behind it, m;
-            burning share of the ground; east and north of the direction in which the front moves; depth of the
-            flaming zone, m.
+            Nodes (n, 33, 33, 8), corners (n, 2) and spacings (n) of squares of the ground, m. A place takes
+            the finest patch that contains it; nothing burns outside. Rows of nodes run north. Channels:
+            elevation; length of the front's flames, m; distance behind the front, m; height of low flames
+            behind it, m; burning share of the ground; east and north of the direction in which the front
+            moves; depth of the flaming zone, m.
         spindles
             (n, 6) crowns in flames: x, y and z of the foot, heights of their base and top, and radius, m.
         pixel

@@ -59,7 +59,7 @@ class Utm:
         Longitudes are within 180 degrees of the central meridian.
         """
     def square(self, east: float, north: float) -> str:
-        """Name the grid zone and 100 km square of a point (m) by MGRS: ``10SFJ``; empty outside of the grid."""
+        """Name the grid zone and 100 km square of a point (m) by MGRS: ``10SFJ``; empty outside the grid."""
 
 def utm_zone(latitude: float, longitude: float) -> int:
     """Find the UTM zone of a place (degrees), 1 to 60, with the exceptions for Norway and Svalbard."""

@@ -121,7 +121,7 @@ def test_values_of_a_manifest_never_lead_out_of_the_version(finished, tmp_path, 
         entry |= hostile
     path.write_text(json.dumps(content))
     out, before = tmp_path / "a" / "b" / "delivered", sorted(tmp_path.rglob("*"))
-    with pytest.raises(InputError, match=r"manifest.json: names .* no parts of a file name"):
+    with pytest.raises(InputError, match=r"manifest.json: names .* cannot be part of a file name"):
         version.write(out, names.choose(finished, PATTERN, 1001))
     assert sorted(tmp_path.rglob("*")) == before
 

@@ -111,8 +111,8 @@ def test_patches_of_two_cameras_agree(shot):
     near, other = (
         {(*corner, spacing): nodes for nodes, corner, spacing in zip(*parts, strict=True)}
         for parts in (
-            (found.nodes, found.corners, found.spacings)
-            for found in (seen(shot), seen(shot, eye=(-60.0, 31.0, 8.0)))
+            (patches.nodes, patches.corners, patches.spacings)
+            for patches in (seen(shot), seen(shot, eye=(-60.0, 31.0, 8.0)))
         )
     )
     both = near.keys() & other.keys()
@@ -122,52 +122,54 @@ def test_patches_of_two_cameras_agree(shot):
 
 
 def test_neighbours_share_their_nodes(shot):
-    found = seen(shot)
+    patches = seen(shot)
     places = {
         (*corner, spacing): k
-        for k, (corner, spacing) in enumerate(zip(found.corners, found.spacings, strict=True))
+        for k, (corner, spacing) in enumerate(zip(patches.corners, patches.spacings, strict=True))
     }
     pairs = 0
     for (x, y, spacing), k in places.items():
         right = places.get((x + SIDE * spacing, y, spacing))
         if right is not None:
             pairs += 1
-            assert found.nodes[k][:, -1] == pytest.approx(found.nodes[right][:, 0], abs=0.02)
+            assert patches.nodes[k][:, -1] == pytest.approx(patches.nodes[right][:, 0], abs=0.02)
     assert pairs > 3
 
 
 def test_a_place_has_one_patch_with_flames_in_reach(shot):
-    found = seen(shot, limit=120.0)
-    assert np.all(found.corners % (SIDE * found.spacings[:, None]) == 0.0)
-    width = SIDE * found.spacings[:, None]
-    middle = found.corners + 0.5 * width
+    patches = seen(shot, limit=120.0)
+    assert np.all(patches.corners % (SIDE * patches.spacings[:, None]) == 0.0)
+    width = SIDE * patches.spacings[:, None]
+    middle = patches.corners + 0.5 * width
     over = np.abs(middle[:, None] - middle).max(axis=-1) < 0.5 * (width + width.T) - 0.01
     assert over.sum() == len(middle)
     nearest = np.hypot(*np.maximum(np.abs(middle) - 0.5 * width, 0.0).T)
     assert nearest.max() < flame_view.FADE[1] * 120.0
-    assert flame_nodes.shows(found.nodes, 8.0).any(axis=(1, 2)).all()
+    assert flame_nodes.shows(patches.nodes, 8.0).any(axis=(1, 2)).all()
 
 
 def test_cells_are_under_two_pixels_beyond_the_finest(shot):
-    found = seen(shot, eye=(800.0, 0.0, 3.0), limit=3000.0)
-    width = SIDE * found.spacings
+    patches = seen(shot, eye=(800.0, 0.0, 3.0), limit=3000.0)
+    width = SIDE * patches.spacings
     away = np.hypot(
-        *np.maximum(np.abs(found.corners + 0.5 * width[:, None] - (800.0, 0.0)) - 0.5 * width[:, None], 0.0).T
+        *np.maximum(
+            np.abs(patches.corners + 0.5 * width[:, None] - (800.0, 0.0)) - 0.5 * width[:, None], 0.0
+        ).T
     )
-    assert (found.spacings <= 2.0 * PIXEL * away + 1e-9).all()
-    assert found.spacings.max() >= 1.0
+    assert (patches.spacings <= 2.0 * PIXEL * away + 1e-9).all()
+    assert patches.spacings.max() >= 1.0
 
 
 def test_near_cells_are_as_fine_as_flames_are_low(shot):
     """Noise of fronts with tall flames needs no cells finer than 1 m."""
-    found = seen(shot, eye=(-60.0, 0.0, 3.0), limit=40.0)
+    patches = seen(shot, eye=(-60.0, 0.0, 3.0), limit=40.0)
     window = flame_window.find(shot, TIME)
     row, column = shot.ground.indices(
-        *shot.ground.geodetic(*(found.corners + SIDE * found.spacings[:, None] / 2.0).T)
+        *shot.ground.geodetic(*(patches.corners + SIDE * patches.spacings[:, None] / 2.0).T)
     )
     length = window.typical_length(row, column)
-    assert (found.spacings <= np.maximum(0.25 * length, 0.25)).all()
-    assert (found.spacings > np.minimum(0.125 * length, 0.5)).all()
+    assert (patches.spacings <= np.maximum(0.25 * length, 0.25)).all()
+    assert (patches.spacings > np.minimum(0.125 * length, 0.5)).all()
 
 
 def test_nothing_is_computed_where_nothing_burns(shot):
