@@ -86,7 +86,7 @@ class FlameLight:
         soot_light: Sequence[float],
         coolest: float,
         hottest: float,
-        extinction: Sequence[Sequence[float]],
+        extinction: ArrayLike,
         dim: float,
     ) -> None:
         """Set all parameters.
