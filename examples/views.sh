@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Renders the five stills of views/ into out/views: afternoon and night, from 200 m to 40 km.
+# Renders a still of each camera of views/ into out/views: afternoon and night, from 5 m to 40 km.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 ./sample.sh
 for scene in views/*.toml; do
   name=$(basename "$scene" .toml)
-  ../.venv/bin/firetwin render "$scene" --out "out/views/$name" --resume
+  ../.venv/bin/firetwin render "$scene" --out "out/views/$name" --frames 1 --resume
 done
