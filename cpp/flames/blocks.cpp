@@ -15,6 +15,7 @@ namespace firetwin::flames {
 namespace {
 
 constexpr float full = 255.0F;
+constexpr float most_cells = 1.0e6F; // height that an index can hold; nothing burns there
 constexpr std::int64_t cube = 8; // cells along a side, which are skipped at once if nothing burns
 constexpr float finest_level = 0.75F; // of a pixel: cells up to this size are not coarsened
 constexpr std::array<float, 2> level_blend{0.4F, 0.6F};
@@ -178,12 +179,13 @@ bool FlameBlock::burns(std::int64_t frame, const Lanes& x, const Lanes& y, const
   const auto [up, along, across] = cubes_;
   const std::uint8_t* cubes = burning_.data() + frame * up * along * across;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const auto i = static_cast<std::int32_t>(x[lane] * inverse),
-               k = static_cast<std::int32_t>(std::max(z[lane], 0.0F) * inverse);
-    auto j = static_cast<std::int32_t>(std::floor(y[lane] * inverse));
-    if (x[lane] < -1.0F || i >= across || k >= up) {
+    const float right = x[lane] * inverse, above = std::max(z[lane], 0.0F) * inverse;
+    if (!(x[lane] >= -1.0F && right < static_cast<float>(across) &&
+          above < static_cast<float>(up))) {
       continue;
     }
+    const auto i = static_cast<std::int32_t>(right), k = static_cast<std::int32_t>(above);
+    auto j = static_cast<std::int32_t>(std::floor(y[lane] * inverse));
     j = wrapped(j, static_cast<std::int32_t>(along));
     if (cubes[(k * along + j) * across + i] != 0) {
       return true;
@@ -205,10 +207,9 @@ FlameBlock::Parts FlameBlock::parts_at(float time) const {
 }
 
 void FlameBlock::rise_at(const Lanes& up, Lanes& cells) const {
-  const auto last = static_cast<std::int32_t>(rise_.size()) - 1;
+  const auto last = static_cast<float>(rise_.size() - 1);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const auto row = static_cast<std::int32_t>(std::max(up[lane], 0.0F));
-    cells[lane] = rise_[static_cast<std::size_t>(std::min(row, last))];
+    cells[lane] = rise_[static_cast<std::size_t>(std::clamp(up[lane], 0.0F, last))];
   }
 }
 
@@ -235,7 +236,8 @@ __attribute__((always_inline)) inline void FlameBlock::add_codes(const Part& par
                                                                  Lanes& out) const {
   const auto nz = static_cast<std::int32_t>(shape_[1]), ny = static_cast<std::int32_t>(shape_[2]),
              nx = static_cast<std::int32_t>(shape_[3]);
-  const Lanes z = up < 0.0F ? Lanes{} : up;
+  Lanes z = up < 0.0F ? Lanes{} : up;
+  z = z > most_cells ? Lanes{} + most_cells : z;
   LaneIndex i, j, k;
   Lanes a, b, c;
   floor_lanes(x, i, a);
@@ -300,7 +302,8 @@ __attribute__((always_inline)) inline void FlameBlock::add_coarse(const Level& l
   const auto nz = static_cast<std::int32_t>(level.size[0]),
              ny = static_cast<std::int32_t>(level.size[1]),
              nx = static_cast<std::int32_t>(level.size[2]);
-  const Lanes z = up < 0.0F ? Lanes{} : up;
+  Lanes z = up < 0.0F ? Lanes{} : up;
+  z = z > most_cells ? Lanes{} + most_cells : z;
   LaneIndex i, j, k;
   Lanes a, b, c;
   floor_lanes(x, i, a);

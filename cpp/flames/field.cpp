@@ -312,7 +312,8 @@ FIRETWIN_CLONES("avx2")
 void FlameField::add_front(const Foot& foot, const Lanes& height, float size, GasLanes& out) const {
   const Lanes length = foot.node[length_channel];
   Lanes drawn = length;
-  drawn = drawn < wide_pixels * size ? Lanes{} + wide_pixels * size : drawn;
+  const float least_drawn = std::max(wide_pixels * size, shortest);
+  drawn = drawn < least_drawn ? Lanes{} + least_drawn : drawn;
   const Lanes away = foot.node[distance_channel] / drawn, up = height / drawn;
   const Lanes seen = (length > shortest && up < library_.top() && away < library_.behind() &&
                       away > -library_.ahead())
@@ -342,7 +343,8 @@ FIRETWIN_CLONES("avx2")
 void FlameField::add_low(const Foot& foot, const Lanes& height, float size, GasLanes& out) const {
   const Lanes length = foot.node[low_channel];
   Lanes drawn = length;
-  drawn = drawn < wide_pixels * size ? Lanes{} + wide_pixels * size : drawn;
+  const float least_drawn = std::max(wide_pixels * size, shortest);
+  drawn = drawn < least_drawn ? Lanes{} + least_drawn : drawn;
   const Lanes up = height / drawn;
   const FlameBlock& block = *library_.lines()[0].front();
   const Lanes seen = (length > shortest && up < block.top()) ? Lanes{} + 1.0F : Lanes{};

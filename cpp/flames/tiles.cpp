@@ -156,6 +156,10 @@ void FlameTiles::add_patches(const FlamePatches& patches, const Vector& origin) 
   if (patches.corner.size() != 2 * count || patches.nodes.size() != count * each * channel_count) {
     throw std::invalid_argument("nodes must be (n, 33, 33, 8), corners (n, 2), and spacings (n)");
   }
+  if (!std::all_of(patches.nodes.begin(), patches.nodes.end(),
+                   [](float value) { return std::isfinite(value); })) {
+    throw std::invalid_argument("nodes must be finite");
+  }
   patches_.resize(count);
   for (std::size_t n = 0; n < count; ++n) {
     const double spacing = patches.spacing[n];

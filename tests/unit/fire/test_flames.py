@@ -187,6 +187,25 @@ def test_nothing_burns_outside_of_the_patches():
     assert below[0, 0, 3] == 1.0
 
 
+@pytest.mark.parametrize("pixel", [0.0, 1e-7, 10.0])
+def test_places_without_flames_beside_flames_are_clear(pixel):
+    """Heights over lengths of nothing exceed all indices of a block."""
+    patches = front(1.7, LENGTH=lambda x, y: np.where(x < 0.0, 0.0, 1.7))
+    burning = flames(patches, pixel=pixel, origin=(0.0, 3.0, 0.5))
+    ahead = np.column_stack([np.linspace(-0.5, 0.5, 400), np.full(400, -1.0), np.tile([0.0, 0.2], 200)])
+    ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
+    seen = volume.march([], (0.0, 3.0, 0.5), ahead, np.full((400, 1), 20.0), LIGHT, flames=burning)
+    assert np.isfinite(seen).all()
+    assert np.isfinite(burning.sample(np.column_stack([np.linspace(-9.0, 9.0, 99)] * 3))).all()
+
+
+def test_values_of_no_place_are_refused():
+    nodes, corners, spacings = front(1.7)
+    nodes[0, 3, 3, 1] = np.nan
+    with pytest.raises(ValueError, match="finite"):
+        flames((nodes, corners, spacings))
+
+
 def test_surfaces_cut_flames_and_smoke_dims_them():
     origins, directions = np.array([[0.0, -60.0, 2.0]]), np.array([[0.0, 1.0, 0.0]])
     ends = [[30.0, 57.0, 120.0]]
