@@ -46,8 +46,18 @@ def temporary_path(path: Path) -> Path:
     return path.with_name(f".{path.stem}.{uuid.uuid4().hex[:12]}.part{path.suffix}")
 
 
-def write(path: Path, put: Callable[[Path], object], durable: bool = True) -> None:
+def write(
+    path: Path,
+    put: Callable[[Path], object],
+    durable: bool = True,
+    give_name: Callable[[Path, Path], None] | None = None,
+) -> None:
     """Write a file atomically: ``put(part)`` writes a temporary file, which is then renamed (see `publish`).
+
+    Parameters
+    ----------
+    give_name
+        Called with the temporary file and `path` in place of `publish`.
 
     Raises
     ------
@@ -59,7 +69,10 @@ def write(path: Path, put: Callable[[Path], object], durable: bool = True) -> No
         with writing(path):
             path.parent.mkdir(parents=True, exist_ok=True)
             put(part)
-        publish(part, path, durable)
+        if give_name is None:
+            publish(part, path, durable)
+        else:
+            give_name(part, path)
     finally:
         with contextlib.suppress(OSError):
             part.unlink(missing_ok=True)

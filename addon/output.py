@@ -7,10 +7,10 @@ folders and devices are never replaced. No file is written into the folder of a 
 
 from __future__ import annotations
 
-import contextlib
 import os
 import stat
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from . import files, written
@@ -66,15 +66,7 @@ def write(path: Path, put: Callable[[Path], object], overwrite: bool = False) ->
         `path` may not be replaced, the disk is full, or the folder cannot be written.
     """
     check(path, overwrite)
-    part = files.temporary_path(path)
-    try:
-        with writing(path):
-            path.parent.mkdir(parents=True, exist_ok=True)
-            put(part)
-        publish(part, path, overwrite)
-    finally:
-        with contextlib.suppress(OSError):
-            part.unlink(missing_ok=True)
+    files.write(path, put, give_name=partial(publish, overwrite=overwrite))
 
 
 def write_text(path: Path, text: str, overwrite: bool = False, newline: str | None = None) -> None:
@@ -100,11 +92,11 @@ def is_own(path: Path, root: Path | None = None) -> bool:
 
 
 def publish_blend(part: Path, path: Path) -> Path | None:
-    """Give a finished .blend file its name; a file of others is kept as Blender does, as ``.blend1``.
+    """Give a finished .blend file its name; rename a file of others to ``.blend1`` first, as Blender does.
 
     Returns
     -------
-    The kept file; None if there was none to keep.
+    The renamed file; None if there was none.
 
     Raises
     ------

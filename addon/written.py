@@ -1,4 +1,4 @@
-"""Record of the files that Firetwin wrote into a folder: a hidden list of hashes beside them.
+"""Record of the files that Firetwin wrote into a folder: their hashes in a hidden file.
 
 It has the format of ``sha256sum``. A file that it lists with its present hash is Firetwin's and unchanged,
 and may be replaced (see `output`). A hash is added before its file gets its name, and the hash of the file

@@ -111,6 +111,5 @@ def in_blender(choice: ShotSource, out: Path, progress: Progress, tell: MessageC
     shot = choice.shot()
     groups.build(shot.settings, owned.adopt(bpy.context.scene))
     count = assets.build(shot, identifier, progress)
-    if kept := save(out):
-        tell(f"{out.name} had changed or was of others; it is kept as {kept.name}")
+    save(out, tell)
     return count

@@ -104,8 +104,7 @@ def in_blender(
         _build_live(shot, stage.scene, progress, tell)
     viewport.prepare_file()
     volume_files.make_paths_relative(out)
-    if kept := save(out, relative_remap=False):
-        tell(f"{out.name} had changed or was of others; it is kept as {kept.name}")
+    save(out, tell, relative_remap=False)
     filmed = bake.shot_frames(shot) if shot.settings.smoke.enabled else ()
     return len(volume_files.missing(stage, filmed))
 
@@ -121,15 +120,13 @@ def _build_live(shot: Shot, scene: bpy.types.Scene, progress: Progress, tell: Me
     tell(f"live scene: {cost.measure(scene, True).text()}")
 
 
-def save(out: Path, **how: bool) -> Path | None:
+def save(out: Path, tell: MessageCallback, **how: bool) -> None:
     """Save Blender's current file as `out`, atomically by way of a temporary name.
-
-    Returns
-    -------
-    The file that was there before, if it was kept (see `output.publish_blend`).
 
     Parameters
     ----------
+    tell
+        Called with a message if a file of others was renamed (see `output.publish_blend`).
     how
         More arguments for `bpy.ops.wm.save_as_mainfile`.
 
@@ -144,7 +141,8 @@ def save(out: Path, **how: bool) -> Path | None:
     bpy.context.preferences.filepaths.save_version = 0
     try:
         bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, **how)
-        return output.publish_blend(part, out)
+        if former := output.publish_blend(part, out):
+            tell(f"{out.name} was not Firetwin's, or had changed; it is now {former.name}")
     except RuntimeError as error:
         if disk_is_full(error) or is_nearly_full(out):
             raise full_disk_error(out) from None

@@ -90,7 +90,7 @@ def _half(
 def _ends(low: Array, high: Array, at: Array) -> Array:
     """Return distances (h, w, taps), m, most of them in the range of the flames around each ray.
 
-    The range of rays without flames near them is that of the picture.
+    Rays without flames nearby get the range of the picture.
     """
     low, high = low / _WIDER, high * _WIDER
     lit = high > 0.0

@@ -40,6 +40,21 @@ __attribute__((always_inline)) inline void mix(const Lanes& a, const Lanes& b, c
   out = a + (b - a) * part;
 }
 
+/// Cells of eight points across, along and up, and the points' places in them.
+struct CellLanes {
+  LaneIndex i, j, k;
+  Lanes a, b, c;
+};
+
+__attribute__((always_inline)) inline void locate(const Lanes& x, const Lanes& y, const Lanes& up,
+                                                  CellLanes& out) {
+  Lanes z = up < 0.0F ? Lanes{} : up;
+  z = z > most_cells ? Lanes{} + most_cells : z;
+  floor_lanes(x, out.i, out.a);
+  floor_lanes(y, out.j, out.b);
+  floor_lanes(z, out.k, out.c);
+}
+
 /// Extinction, and light that leaves, of each code at a height.
 struct CodeTable {
   std::array<float, 256> extinction, light;
@@ -236,13 +251,9 @@ __attribute__((always_inline)) inline void FlameBlock::add_codes(const Part& par
                                                                  Lanes& out) const {
   const auto nz = static_cast<std::int32_t>(shape_[1]), ny = static_cast<std::int32_t>(shape_[2]),
              nx = static_cast<std::int32_t>(shape_[3]);
-  Lanes z = up < 0.0F ? Lanes{} : up;
-  z = z > most_cells ? Lanes{} + most_cells : z;
-  LaneIndex i, j, k;
-  Lanes a, b, c;
-  floor_lanes(x, i, a);
-  floor_lanes(y, j, b);
-  floor_lanes(z, k, c);
+  CellLanes cells;
+  locate(x, y, up, cells);
+  auto& [i, j, k, a, b, c] = cells;
   const std::uint8_t* codes = codes_.data() + part.frame * nz * ny * nx;
   using Pairs = Simd<std::int32_t, lane_count>; // two neighbours across the front in a number
   std::array<Pairs, 4> corner{};
@@ -302,13 +313,9 @@ __attribute__((always_inline)) inline void FlameBlock::add_coarse(const Level& l
   const auto nz = static_cast<std::int32_t>(level.size[0]),
              ny = static_cast<std::int32_t>(level.size[1]),
              nx = static_cast<std::int32_t>(level.size[2]);
-  Lanes z = up < 0.0F ? Lanes{} : up;
-  z = z > most_cells ? Lanes{} + most_cells : z;
-  LaneIndex i, j, k;
-  Lanes a, b, c;
-  floor_lanes(x, i, a);
-  floor_lanes(y, j, b);
-  floor_lanes(z, k, c);
+  CellLanes cells;
+  locate(x, y, up, cells);
+  auto& [i, j, k, a, b, c] = cells;
   i += 1; // the margin
   const std::uint16_t* values = level.values.data() + part.frame * nz * ny * nx;
   for (std::size_t corner = 0; corner < 8; ++corner) {

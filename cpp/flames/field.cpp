@@ -99,6 +99,13 @@ void add_block(const FlameBlock& block, const BlockPlaces& places, float time,
   add(levels.number + 1, levels.part);
 }
 
+/// Lengths at which flames are drawn where pixels have this size, m.
+__attribute__((always_inline)) inline void drawn_lengths(const Lanes& length, float size,
+                                                         Lanes& out) {
+  const float at_least = std::max(FlameField::wide_pixels * size, shortest);
+  out = length < at_least ? Lanes{} + at_least : length;
+}
+
 /// A moment of a block that repeats in other places: each loop fades in over the end of the one
 /// before.
 struct Moment {
@@ -117,7 +124,7 @@ Moment moment(const FlameBlock& block, double time, float length, double phase) 
   return {static_cast<std::int64_t>(loop), since, part};
 }
 
-/// Number, 0 to 1, of a loop: numbers of successive loops are far apart.
+/// Returns a number from 0 to 1 for a loop; successive loops get distant numbers (golden ratio).
 double spread(double first, std::int64_t loop) {
   const double at = first + static_cast<double>(loop) / std::numbers::phi;
   return at - std::floor(at);
@@ -263,7 +270,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   }
 }
 
-/// Finds the foot by the wind that the block of a place does not hold.
+/// Finds the foot: wind beyond that of the solved fire leans the flames.
 FIRETWIN_CLONES("avx2")
 void FlameField::find_foot(const Lanes& x, const Lanes& y, const Lanes& height,
                            const NodeLanes& node, Foot& out) const {
@@ -311,9 +318,8 @@ void FlameField::find_foot(const Lanes& x, const Lanes& y, const Lanes& height,
 FIRETWIN_CLONES("avx2")
 void FlameField::add_front(const Foot& foot, const Lanes& height, float size, GasLanes& out) const {
   const Lanes length = foot.node[length_channel];
-  Lanes drawn = length;
-  const float least_drawn = std::max(wide_pixels * size, shortest);
-  drawn = drawn < least_drawn ? Lanes{} + least_drawn : drawn;
+  Lanes drawn;
+  drawn_lengths(length, size, drawn);
   const Lanes away = foot.node[distance_channel] / drawn, up = height / drawn;
   const Lanes seen = (length > shortest && up < library_.top() && away < library_.behind() &&
                       away > -library_.ahead())
@@ -342,9 +348,8 @@ void FlameField::add_front(const Foot& foot, const Lanes& height, float size, Ga
 FIRETWIN_CLONES("avx2")
 void FlameField::add_low(const Foot& foot, const Lanes& height, float size, GasLanes& out) const {
   const Lanes length = foot.node[low_channel];
-  Lanes drawn = length;
-  const float least_drawn = std::max(wide_pixels * size, shortest);
-  drawn = drawn < least_drawn ? Lanes{} + least_drawn : drawn;
+  Lanes drawn;
+  drawn_lengths(length, size, drawn);
   const Lanes up = height / drawn;
   const FlameBlock& block = *library_.lines()[0].front();
   const Lanes seen = (length > shortest && up < block.top()) ? Lanes{} + 1.0F : Lanes{};

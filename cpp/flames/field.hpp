@@ -48,7 +48,8 @@ class FlameField {
 public:
   static constexpr float below_ground = 0.5F; ///< m below the map's ground that still burns
   static constexpr float wide_pixels = 1.5F;  ///< least length of drawn flames, pixels
-  static constexpr float lean = 0.5F; ///< of flames in wind that their block does not hold (by eye)
+  static constexpr float lean =
+      0.5F; ///< share of the wind beyond the solved fire's by which flames lean (by eye)
 
   /// @param shape wind that carries flames, without `lean`
   FlameField(const FlameTiles& tiles, const FlameCrowns& crowns, const FlameLibrary& library,

@@ -97,6 +97,20 @@ FlameTiles::Tile FlameTiles::Patch::tile(std::size_t number) const {
   return {top[number], longest[number], {left, left + span, low, low + span}};
 }
 
+void FlameTiles::Level::cover(const std::array<std::int64_t, 2>& low,
+                              const std::array<std::int64_t, 2>& high) {
+  first = low;
+  size = {high[0] - low[0] + 1, high[1] - low[1] + 1};
+  if (static_cast<double>(size[0]) * static_cast<double>(size[1]) > most_squares) {
+    throw std::invalid_argument("patches of flames are too far apart");
+  }
+  index.assign(static_cast<std::size_t>(size[0] * size[1]), -1);
+}
+
+void FlameTiles::Level::set(std::int64_t i, std::int64_t j, std::int32_t number) {
+  index[static_cast<std::size_t>((j - first[1]) * size[0] + i - first[0])] = number;
+}
+
 std::int32_t FlameTiles::Level::at(std::int64_t i, std::int64_t j) const {
   i -= first[0];
   j -= first[1];
@@ -112,35 +126,31 @@ FlameTiles::FlameTiles(const FlamePatches& patches, const FlameShape& shape,
   list_levels(patches);
   bound_patches(shape, reach);
   bound_crowns(crowns);
-  if (!any_) {
-    return;
+  if (any_) {
+    list_occupied(crowns);
   }
+}
+
+/// Marks the squares that are not skipped.
+void FlameTiles::list_occupied(const FlameCrowns& crowns) {
   for (std::size_t n = 0; n < squares.size(); ++n) {
     Level& grid = occupied_[n];
     grid.span = squares[n];
-    grid.first = place(bounds_[0], bounds_[2], grid.span);
-    const auto last = place(bounds_[1], bounds_[3], grid.span);
-    grid.size = {last[0] - grid.first[0] + 1, last[1] - grid.first[1] + 1};
-    if (static_cast<double>(grid.size[0]) * static_cast<double>(grid.size[1]) > most_squares) {
-      throw std::invalid_argument("patches of flames are too far apart");
-    }
-    grid.index.assign(static_cast<std::size_t>(grid.size[0] * grid.size[1]), -1);
+    grid.cover(place(bounds_[0], bounds_[2], grid.span), place(bounds_[1], bounds_[3], grid.span));
     const auto mark = [&](const std::array<float, 4>& box) {
       const auto low = place(box[0], box[2], grid.span), high = place(box[1], box[3], grid.span);
       for (auto j = low[1]; j <= high[1]; ++j) {
         for (auto i = low[0]; i <= high[0]; ++i) {
-          grid.index[static_cast<std::size_t>((j - grid.first[1]) * grid.size[0] + i -
-                                              grid.first[0])] = 0;
+          grid.set(i, j, 0);
         }
       }
     };
     for (const Patch& each : patches_) {
       for (std::size_t tile = 0; tile < tile_count; ++tile) {
         if (each.top[tile] > none) {
-          auto box = each.tile(tile).bounds;
-          box = {std::max(box[0], bounds_[0]), std::min(box[1], bounds_[1]),
-                 std::max(box[2], bounds_[2]), std::min(box[3], bounds_[3])};
-          mark(box);
+          const auto box = each.tile(tile).bounds;
+          mark({std::max(box[0], bounds_[0]), std::min(box[1], bounds_[1]),
+                std::max(box[2], bounds_[2]), std::min(box[3], bounds_[3])});
         }
       }
     }
@@ -200,21 +210,16 @@ void FlameTiles::list_levels(const FlamePatches& patches) {
                            static_cast<std::int32_t>(n)});
       }
     }
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const auto less = [axis](const auto& a, const auto& b) {
-        return a.first[axis] < b.first[axis];
-      };
-      const auto [low, high] = std::minmax_element(members.begin(), members.end(), less);
-      made.first[axis] = low->first[axis];
-      made.size[axis] = high->first[axis] - low->first[axis] + 1;
-    }
-    if (static_cast<double>(made.size[0]) * static_cast<double>(made.size[1]) > most_squares) {
-      throw std::invalid_argument("patches of flames are too far apart");
-    }
-    made.index.assign(static_cast<std::size_t>(made.size[0] * made.size[1]), -1);
+    std::array<std::int64_t, 2> first = members.front().first, last = first;
     for (const auto& [at, number] : members) {
-      made.index[static_cast<std::size_t>((at[1] - made.first[1]) * made.size[0] + at[0] -
-                                          made.first[0])] = number;
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        first[axis] = std::min(first[axis], at[axis]);
+        last[axis] = std::max(last[axis], at[axis]);
+      }
+    }
+    made.cover(first, last);
+    for (const auto& [at, number] : members) {
+      made.set(at[0], at[1], number);
     }
     levels_.push_back(std::move(made));
   }

@@ -21,8 +21,7 @@ enum Channel : std::size_t {
   share_channel,    ///< share of the ground here that burns, 0 to 1
   east_channel,     ///< of the direction in which the front moves, a unit vector
   north_channel,
-  depth_channel, ///< depth of the flaming zone, m
-  channel_count
+  channel_count = lane_count ///< nodes are read as vectors; the last value is unused
 };
 
 using Node = std::array<float, channel_count>;
@@ -100,6 +99,10 @@ private:
     double span;                             ///< m
     std::array<std::int64_t, 2> first, size; ///< in spans: x, y
     std::vector<std::int32_t> index;         ///< -1: none
+    /// Covers squares from one to another, all without a number.
+    /// @throws std::invalid_argument if there are too many
+    void cover(const std::array<std::int64_t, 2>& low, const std::array<std::int64_t, 2>& high);
+    void set(std::int64_t i, std::int64_t j, std::int32_t number);
     std::int32_t at(std::int64_t i, std::int64_t j) const;
   };
 
@@ -107,6 +110,7 @@ private:
   void list_levels(const FlamePatches& patches);
   void bound_patches(const FlameShape& shape, const FlameReach& reach);
   void bound_crowns(const FlameCrowns& crowns);
+  void list_occupied(const FlameCrowns& crowns);
   const Patch* patch(float x, float y) const;
   std::array<std::int64_t, 2> place(float x, float y, double span) const;
   std::array<float, 4> square(const std::array<std::int64_t, 2>& at, double span) const;

@@ -57,7 +57,7 @@ class FireKind:
     seen
         Points of a flame that must be seen, as parts of its height.
     torches
-        True if the flames are those of single crowns.
+        True if single crowns burn.
     """
 
     name: str

@@ -17,7 +17,7 @@ from ...shot.cameras.rigs.satellite import Satellite
 from ...shot.fire import flame_map
 from ...shot.settings import Camera
 from ...shot.shot import Shot
-from . import sight
+from . import line_of_sight
 from .plume import Plume
 
 _PIXELS = 640  # of the view from above in which trees grow
@@ -79,18 +79,18 @@ class LocalFire:
         return replace(grown, distance=np.zeros(len(grown.height)))
 
     @cached_property
-    def trees(self) -> sight.Plants:
+    def trees(self) -> line_of_sight.Plants:
         """Trees of the stand."""
-        return sight.Plants.of_stand(self.stand)
+        return line_of_sight.Plants.of_stand(self.stand)
 
     @cached_property
-    def low_plants(self) -> sight.Plants:
+    def low_plants(self) -> line_of_sight.Plants:
         """Low plants within about 100 m of the centre; it takes seconds."""
         latitude, longitude = self._geodetic
         focal_length, pixels, most = _PLANTS
         key = CameraKey(0.0, latitude, longitude, _ABOVE, "ahead", tilt=90.0)
         shot = self._from_above(Drone(focal_length=focal_length, keys=(key,)), pixels, most)
-        return sight.Plants.of_understorey(understorey.grow(shot))
+        return line_of_sight.Plants.of_understorey(understorey.grow(shot))
 
     @cached_property
     def torches(self) -> flames.Points:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...shot.terrain.terrain import Terrain
 from ..coarse_smoke import CoarseSmoke
-from . import sight
+from . import line_of_sight
 from .kinds import FireKind
 from .local_fire import LocalFire
 
@@ -207,10 +207,10 @@ def _visible_share(fire: LocalFire, eye: Array, points: Array, ground: Terrain, 
     """Share 0..1 of points (n, 3) that a camera (3,) at a distance (m) sees."""
     if len(points) == 0:
         return 0.0
-    seen = sight.over_terrain(eye, points, ground)
-    seen[seen] = sight.between_plants(eye, points[seen], ground, fire.trees)
+    seen = line_of_sight.over_terrain(eye, points, ground)
+    seen[seen] = line_of_sight.between_plants(eye, points[seen], ground, fire.trees)
     if distance <= _NEAR[1] and float(np.mean(seen)) >= LEAST:
-        seen[seen] = sight.between_plants(eye, points[seen], ground, fire.low_plants)
+        seen[seen] = line_of_sight.between_plants(eye, points[seen], ground, fire.low_plants)
     return float(np.mean(seen))
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ...shot.fire import flame_phase
 from ..coarse_smoke import CoarseSmoke
 from . import placing
 from .kinds import FireKind, LightOfDay
@@ -39,7 +40,7 @@ class Clip:
 
     @property
     def rating(self) -> float:
-        """Rating: the number of cameras counts, and what they see."""
+        """Rating: number of cameras that see the fire, plus the sum of their scores."""
         return sum(view.score for view in self.placed) + len(self.placed)
 
 
@@ -83,11 +84,11 @@ def _clips(survey: Survey, kind: FireKind, row: int, column: int) -> Iterator[Cl
     centre = ground.point(*ground.places(float(row), float(column)))[0, :2]
     arrival = float(ground.burn_time[row, column])
     if not kind.torches:
-        residence = float(survey.shot.front.residence[row, column])
-        start = arrival + _AFTER * max(
-            residence / 3.0, 0.35 * length / float(survey.shot.front.speed[row, column])
+        front = survey.shot.front
+        tall, _ = flame_phase.times(
+            front.speed[row, column], front.residence[row, column], np.asarray(length)
         )
-        fire = LocalFire(survey.clip(start), centre)
+        fire = LocalFire(survey.clip(arrival + _AFTER * float(tall)), centre)
         reach = float(np.clip(_REACH[1] * length, _REACH[0], _REACH[2]))
         aims, flame = fire.tall_flames(reach)
         if flame >= _GROWN * length:

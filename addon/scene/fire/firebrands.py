@@ -97,7 +97,7 @@ def updraft(intensity: Array) -> Array:
 
 
 def exposure_time(shot: Shot) -> float:
-    """Return the exposure time (s) of streaks: that of motion blur, if the shot has it."""
+    """Return the exposure time (s) of streaks, equal to the exposure of motion blur if the shot has it."""
     blurred = shot.settings.render.motion_blur * shot.frames.step
     return min(blurred or SHUTTER, _LONGEST)
 

@@ -19,7 +19,7 @@ _CLOSE, _DIMMED = (0.02, 0.2), 0.1
 """m, pixel sizes between which single coals blend, and factor on their light close by (by eye)."""
 _FADES = 4.0, 8.0  # m, pixel sizes between which pieces blend into patches of embers
 _STRENGTH = 2.0  # exponent of the strength in a number uniform in 0..1: a few pieces are bright (by eye)
-_LIT = 0.05, 1.5  # light on the ground beside a piece, over the piece's own (by eye), and its reach, m
+_LIT = 0.05, 1.5  # light on the ground around a piece over the light of the piece (by eye), and its reach, m
 
 
 def glow(tree: nodes.Tree, place: GroundInputs) -> nodes.Value:

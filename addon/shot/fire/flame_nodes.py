@@ -1,8 +1,8 @@
 """Values at the nodes of patches of flames.
 
-A node has eight values: `GROUND`, `LENGTH`, `DISTANCE`, `LOW`, `SHARE`, direction (`EAST`, `NORTH`) and
-`DEPTH`; see `FlameState`. Far from the camera, cells are wider than gaps, patches and the ragged edge of the
-front. Values are therefore means over places in the cell of a node, about `_PART` apart:
+A node has the values `GROUND`, `LENGTH`, `DISTANCE`, `LOW`, `SHARE` and direction (`EAST`, `NORTH`), and an
+unused eighth one; see `FlameState`. Far from the camera, cells are wider than gaps, patches and the ragged
+edge of the front. Values are therefore means over places in the cell of a node, about `_PART` apart:
 
 - The share is the fraction of places that have flames when the front is there: less than 1 where it has gaps.
 - Length and distance are means over these places. The front is where the distance is 0, so it is a line in
@@ -24,7 +24,7 @@ from . import flame_state
 from .flame_window import AHEAD, FlameWindow
 
 SIDE = 32  # cells along a patch
-GROUND, LENGTH, DISTANCE, LOW, SHARE, EAST, NORTH, DEPTH = range(8)
+GROUND, LENGTH, DISTANCE, LOW, SHARE, EAST, NORTH = range(7)
 _PART, _PARTS = 4.0, 4  # m, distance between the places of a cell; most along a cell
 _GROUND, _LEAST_EVERY = 4.0, 2  # m, distance at which the ground is computed; its finest waves are 26 m long
 _MOST_EVERY = 8  # cells
@@ -50,9 +50,8 @@ def values(
         place = np.stack(np.broadcast_arrays(axis, axis[:, None]), axis=-1) + corners[:, None, None]
         turn = _turns(row, column, spacing)[at // (SIDE + 1) ** 2]
         place, row, column = place.reshape(-1, 2)[at], row.ravel()[at], column.ravel()[at]
-        flat[at, LENGTH : SHARE + 1], depth = _means(shot, window, place, row, column, turn, spacing, wind)
+        flat[at, LENGTH : SHARE + 1] = _means(shot, window, place, row, column, turn, spacing, wind)
         flat[at, EAST : NORTH + 1] = _direction(shot.ground, row, column, spacing, wind)
-        flat[at, DEPTH] = depth
     return nodes
 
 
@@ -102,13 +101,13 @@ def _means(
     turn: Array,
     spacing: float,
     wind: tuple[float, float],
-) -> tuple[Array, Array]:
-    """Return length, distance, low flames and share (n, 4), and the depth of the flaming zone (n,), m."""
+) -> Array:
+    """Return length, distance, low flames and share (n, 4)."""
     parts = int(np.clip(np.ceil(spacing / _PART), 1, _PARTS))
     if parts == 1:
         state = flame_state.at(shot, place, row, column, window.time, wind)
         burns = (state.length > 0.0).astype(np.float64)
-        return np.stack([state.length, state.distance, state.low, burns], axis=-1), state.depth
+        return np.stack([state.length, state.distance, state.low, burns], axis=-1)
     line = ((np.arange(parts) + 0.5) / parts - 0.5) * spacing
     north, east = (each.ravel() for each in np.meshgrid(line, line, indexing="ij"))
     places = place[:, None] + np.stack([east, north], axis=-1)
@@ -117,11 +116,7 @@ def _means(
         for axis, each in enumerate((row, column))
     )
     state = flame_state.at(shot, places.reshape(-1, 2), rows.ravel(), columns.ravel(), window.time, wind)
-    shape = rows.shape
-    length, distance, low, depth = (
-        each.reshape(shape) for each in (state.length, state.distance, state.low, state.depth)
-    )
-    return _mean(length, distance, low), depth.mean(axis=1)
+    return _mean(*(each.reshape(rows.shape) for each in (state.length, state.distance, state.low)))
 
 
 def _mean(length: Array, distance: Array, low: Array) -> Array:

@@ -39,7 +39,7 @@ def height(age: Array, speed: Array, residence: Array, length: Array, patch: Arr
     patch
         Noise of patches that burn on behind the front.
     """
-    tall, out = _times(speed, residence, length)
+    tall, out = times(speed, residence, length)
     up = np.clip(age / (_RISING * tall), 0.0, 1.0)
     down = 1.0 - (1.0 - _LOW) * noise.smoothstep(0.0, 1.0, (age - tall) / (out - tall))
     fuel = np.clip(0.45 + 1.2 * patch, 0.0, 1.2)  # fuel behind the leading flames burns in patches
@@ -58,7 +58,7 @@ def low(age: Array, distance: Array, speed: Array, residence: Array, length: Arr
     distance
         Distance behind the front, m. For the others see `height`.
     """
-    _tall, out = _times(speed, residence, length)
+    _tall, out = times(speed, residence, length)
     first, last = _SHARES
     main = first + (last - first) * noise.smoothstep(0.0, 1.0, age / out)
     main *= np.clip(_PATCHES * patch, 0.0, 1.2) * (1.0 - noise.smoothstep(1.0, _ENDS[0], age / out))
@@ -73,12 +73,12 @@ def is_behind(distance: Array, length: Array) -> NDArray[np.bool_]:
 
 def last_age(speed: Array, residence: Array, length: Array) -> Array:
     """Return the age (s) from which no place with flames of at most this length (m) burns."""
-    _tall, out = _times(speed, residence, length)
+    _tall, out = times(speed, residence, length)
     late = np.where(residence > _WOOD[0], out + _ENDS[1] * residence, 0.0)
     return np.maximum(_ENDS[0] * out, late)
 
 
-def _times(speed: Array, residence: Array, length: Array) -> tuple[Array, Array]:
+def times(speed: Array, residence: Array, length: Array) -> tuple[Array, Array]:
     """Return the ages (s) up to which flames are tall, and at which they are out but for residual ones."""
     tall = np.clip(_DEEP * length / speed, _TALL_PART * residence, _LONGEST)
     return tall, np.maximum(residence, 1.6 * tall)

@@ -44,14 +44,11 @@ class FlameState:
         Distance behind the front, m; negative ahead of it.
     low
         Height now of flames that burn on behind the front, m.
-    depth
-        Depth of the flaming zone, m.
     """
 
     length: Array
     distance: Array
     low: Array
-    depth: Array
 
 
 def at(
@@ -90,7 +87,7 @@ def at(
         long = length[behind] * share
         low[behind] = long * flame_noise.upright(long, wind)
     low = np.where(low >= LEAST, low, 0.0)
-    return FlameState(length, distance, low, speed * residence)
+    return FlameState(length, distance, low)
 
 
 def shift(shot: Any, place: Array, row: Array, column: Array) -> tuple[Array, Array]:

@@ -133,7 +133,7 @@ class FlameVolume:
             the finest patch that contains it; nothing burns outside. Rows of nodes run north. Channels:
             elevation; length of the front's flames, m; distance behind the front, m; height of low flames
             behind it, m; burning share of the ground; east and north of the direction in which the front
-            moves; depth of the flaming zone, m.
+            moves; an unused one.
         spindles
             (n, 6) crowns in flames: x, y and z of the foot, heights of their base and top, and radius, m.
         pixel

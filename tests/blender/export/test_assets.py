@@ -27,4 +27,4 @@ def test_a_library_of_somebody_else_stays(tmp_path):
 def test_a_file_that_cannot_be_saved_is_one_clear_error(tmp_path, monkeypatch, full, words):
     monkeypatch.setattr(build, "is_nearly_full", lambda path: full)
     with pytest.raises(InputError, match=rf"away.{job.BLEND}: {words}"):
-        build.save(tmp_path / "away" / job.BLEND)
+        build.save(tmp_path / "away" / job.BLEND, print)

@@ -9,7 +9,7 @@ import pytest
 import whole_run
 from firetwin import cli
 from firetwin.auto_framing import fire_views
-from firetwin.auto_framing.fire_views import places, placing, search, sight
+from firetwin.auto_framing.fire_views import line_of_sight, places, placing, search
 from firetwin.run import readers, sun
 from firetwin.scene.forest import stand
 from firetwin.shot import run_checks
@@ -140,7 +140,9 @@ def test_cameras_are_not_in_the_lee(views_of):
 
 def _tree(place, height, radius):
     one = np.ones(1)
-    return sight.Plants(np.array([place]), height * one, radius * one, 0.1 * one, one, 0.1 * one, one, one)
+    return line_of_sight.Plants(
+        np.array([place]), height * one, radius * one, 0.1 * one, one, 0.1 * one, one, one
+    )
 
 
 @pytest.fixture(scope="module")
@@ -161,21 +163,21 @@ def test_a_tree_hides_what_is_behind_its_crown_and_not_what_is_over_or_beside_it
     eye, *points = _above(
         ridge, (300, 0, 10), (300, 100, 5), (300, 100, 60), (330, 100, 5), (300, 30, 5), (300, 55, 0.1)
     )
-    seen = sight.between_plants(eye, np.array(points), ridge, _tree([300.0, 50.0], 20.0, 4.0))
+    seen = line_of_sight.between_plants(eye, np.array(points), ridge, _tree([300.0, 50.0], 20.0, 4.0))
     assert seen.tolist() == [False, True, True, True, False]
 
 
 def test_trees_that_are_cleared_around_a_camera_hide_nothing(ridge):
     eye, point = _above(ridge, (300, 0, 5), (300, 100, 5))
     near = replace(_tree([300.0, 20.0], 20.0, 4.0), near=np.array([stand.CLEARING]))
-    assert sight.between_plants(eye, point[None], ridge, near)[0]
-    assert not sight.between_plants(eye, point[None], ridge, replace(near, near=np.zeros(1)))[0]
+    assert line_of_sight.between_plants(eye, point[None], ridge, near)[0]
+    assert not line_of_sight.between_plants(eye, point[None], ridge, replace(near, near=np.zeros(1)))[0]
 
 
 def test_a_hill_hides_flames(ridge):
     low, high, flame = _above(ridge, (-200, 0, 2), (-200, 0, 200), (200, 0, 2))
-    assert not sight.over_terrain(low, flame[None], ridge)[0]
-    assert sight.over_terrain(high, flame[None], ridge)[0]
+    assert not line_of_sight.over_terrain(low, flame[None], ridge)[0]
+    assert line_of_sight.over_terrain(high, flame[None], ridge)[0]
 
 
 def test_new_writes_the_views_and_replaces_none(tmp_path, capsys, monkeypatch):
