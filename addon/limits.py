@@ -35,8 +35,10 @@ _MB = 1_000_000
 
 
 def _number(group: str, quantity: str, value: int, beyond: str, unit: str = "") -> int:
-    """List a limit and return its number; bytes are shown as MB."""
-    shown = f"{value / _MB:,.3g} MB" if unit == "bytes" else f"{value:,} {unit}".strip()
+    """List a limit and return its number; bytes are shown as MB or GB."""
+    shown = f"{value:,} {unit}".strip()
+    if unit == "bytes":
+        shown = f"{value / _MB:,.3g} MB" if value < 1000 * _MB else f"{value / 1000 / _MB:.3g} GB"
     LIMITS.append(Limit(group, quantity, shown, beyond))
     return value
 
@@ -64,6 +66,10 @@ TEXT_BYTES = _number(_X, "size of GeoJSON, KML, GPX and CSV, also within a KMZ",
 
 TEXT_VALUES = _number(_X, "numbers, lists and tags in such a file", 20_000_000, "refused")
 CAMERA_FRAMES = _number(_X, "frames of a camera of a USD stage or Alembic file", 100_000, "refused")
+CAMERA_SECONDS = _number(_X, "time of a USD stage or Alembic file without progress", 120, "refused", "s")
+CAMERA_MEMORY = _number(
+    _X, "memory of the process that reads a USD stage or Alembic file", 2 << 30, "refused", "bytes"
+)
 
 _T = "3D tiles"
 TILE_BYTES = _number(_T, "size of a file, decompressed", 256 << 20, "refused", "bytes")

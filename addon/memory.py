@@ -1,4 +1,4 @@
-"""Process memory: peak use, and release of freed memory to the system."""
+"""Process memory: peak use, limits, and release of freed memory to the system."""
 
 from __future__ import annotations
 
@@ -41,6 +41,19 @@ def release_freed() -> None:
 @functools.cache
 def _trim() -> Callable[[int], int] | None:
     return getattr(ctypes.CDLL(None), "malloc_trim", None) if _glibc() else None
+
+
+def limit(size: int) -> None:
+    """Limit this process to `size` bytes of address space more than it has, if the system can.
+
+    Windows has no module `resource`, and macOS does not report the present size.
+    """
+    with contextlib.suppress(ImportError, ValueError, OSError):
+        import resource
+
+        with open("/proc/self/statm", encoding="ascii") as file:
+            size += int(file.read().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (size, size))
 
 
 def peak() -> int:

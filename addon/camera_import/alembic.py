@@ -23,7 +23,7 @@ def read(path: Path, progress: Progress, rate: tuple[int, int]) -> ForeignScene:
     InputError, Error
         The file cannot be read.
     """
-    return foreign.read(partial(in_blender, path.absolute(), rate), progress)
+    return foreign.read(path, partial(in_blender, path.absolute(), rate), progress)
 
 
 def in_blender(path: Path, rate: tuple[int, int], progress: Progress, tell: MessageCallback) -> ForeignScene:

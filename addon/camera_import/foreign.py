@@ -6,22 +6,21 @@ The axes of a scene are right-handed with z up, in metres. Cameras look along -z
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import input_error
+from ..errors import input_error, reading
 from ..jobs import worker
-from ..progress import Progress
+from ..limits import CAMERA_MEMORY, CAMERA_SECONDS
+from ..progress import MessageCallback, Progress
 from .move import Move
 from .placing import Origin
 
 Array = NDArray[np.float64]
-
-PATIENCE = 120.0
-"""Timeout, s without progress, after which the reading of a damaged file is ended."""
 
 
 @dataclass(frozen=True)
@@ -51,15 +50,28 @@ class ForeignScene:
         return [_move(path, camera, self.rate, matrix) for camera in self.cameras]
 
 
-def read(work: worker.Work[ForeignScene], progress: Progress) -> ForeignScene:
-    """Read a file in a separate process, which a damaged file may crash.
+def read(path: Path, work: worker.Work[ForeignScene], progress: Progress) -> ForeignScene:
+    """Read a file in a separate process, with limits, which a damaged file may crash.
 
     Raises
     ------
     InputError, Error
         The file cannot be read.
     """
-    return worker.run(work, progress, patience=PATIENCE)
+    try:
+        guarded = partial(_guarded, path, work)
+        return worker.run(guarded, progress, patience=CAMERA_SECONDS, size=CAMERA_MEMORY)
+    except worker.EndedError:
+        most = f"more than {CAMERA_MEMORY / 1e9:.1f} GB of memory or {CAMERA_SECONDS} s to read"
+        raise input_error(path, f"is damaged, or needs {most}; export only its cameras") from None
+
+
+def _guarded(
+    path: Path, work: worker.Work[ForeignScene], progress: Progress, tell: MessageCallback
+) -> ForeignScene:
+    """Read a file, and name it in errors; worker side."""
+    with reading(path):
+        return work(progress=progress, tell=tell)
 
 
 def _move(path: Path, camera: dict[str, Any], rate: float, matrix: Array) -> Move:

@@ -27,7 +27,7 @@ def read(path: Path, progress: Progress) -> ForeignScene:
     InputError, Error
         The stage cannot be read.
     """
-    return foreign.read(partial(in_blender, path.absolute()), progress)
+    return foreign.read(path, partial(in_blender, path.absolute()), progress)
 
 
 def in_blender(path: Path, progress: Progress, tell: MessageCallback) -> ForeignScene:

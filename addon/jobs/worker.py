@@ -50,7 +50,7 @@ class StoppedError(Exception):
 
 
 class EndedError(Exception):
-    """A process without Blender ended before it answered; the message gives the reason."""
+    """A process without Blender, or with a limit, ended before it answered; the message gives the reason."""
 
 
 class Stop:
@@ -87,6 +87,7 @@ def run(
     tell: MessageCallback = no_message,
     blender: bool = True,
     patience: float = 0.0,
+    size: int = 0,
 ) -> Result:
     """Call ``work(progress=..., tell=...)`` in a child process, and return its result.
 
@@ -101,6 +102,8 @@ def run(
     patience
         Timeout in s: the child is ended after this time without progress or heartbeat (see
         `run.models.heartbeat`); 0: no timeout.
+    size
+        Limit on the memory that the work takes, bytes; 0: no limit.
 
     Raises
     ------
@@ -109,7 +112,7 @@ def run(
     StoppedError
         `stop` was used.
     EndedError
-        The process of work without Blender ended otherwise.
+        The process of work without Blender, or with `size`, ended otherwise.
     """
     from ..errors import Error, InputError, writing
 
@@ -117,7 +120,7 @@ def run(
         log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
     forget = functools.partial(_remove, Path(log.name))
     package = __package__ or "firetwin"
-    code = f"import importlib; importlib.import_module({package + '.worker'!r}).serve({blender})"
+    code = f"import importlib; importlib.import_module({package + '.worker'!r}).serve({blender}, {size})"
     with log:
         child = subprocess.Popen(
             _command(code),
@@ -140,12 +143,13 @@ def run(
     if stop is not None and stop.asked:
         forget()
         raise StoppedError
-    log_at = f" (the log of Blender is {log.name})" if blender else ""
-    if not blender or isinstance(value, InputError):
+    quiet = not blender or size > 0
+    log_at = "" if quiet else f" (the log of Blender is {log.name})"
+    if quiet or isinstance(value, InputError):
         forget()
     if kind == "error":
         raise value if isinstance(value, InputError) else type(value)(" ".join(str(value).split()) + log_at)
-    if not blender:
+    if quiet:
         if watch.over:
             raise EndedError(f"made no progress for {duration(patience)} and was ended")
         raise EndedError(_stopped(child.returncode))
@@ -295,7 +299,7 @@ def _signal(number: int) -> str:
         return "of no name"
 
 
-def serve(blender: bool = True) -> None:
+def serve(blender: bool = True, size: int = 0) -> None:
     """Do the parent's work; worker side of `run`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent decides
     channel = os.fdopen(os.dup(1), "wb")
@@ -321,6 +325,8 @@ def serve(blender: bool = True) -> None:
     try:
         work: Work[Any] = pickle.load(sys.stdin.buffer)
         threading.Thread(target=_watch_parent, daemon=True).start()
+        if size:
+            memory.limit(size)
         with heartbeat.to(lambda: answer("heartbeat")):
             result = work(
                 progress=lambda *where: answer("progress", where), tell=lambda text: answer("tell", text)

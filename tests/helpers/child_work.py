@@ -37,6 +37,11 @@ def abort(*_, **__):
     os.abort()
 
 
+def allocate(*_, **__):
+    """Take 1 GB of memory."""
+    bytearray(1 << 30)
+
+
 def open_missing(*_, **__):
     """Write a file in a folder that does not exist."""
     Path("/nowhere/at_all").write_text("")

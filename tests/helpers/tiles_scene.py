@@ -37,7 +37,6 @@ def decode_here(patch):
     def here(contents, progress):
         return decode.in_process(contents, progress, print)
 
-    patch.setattr(decode, "_limit", lambda memory: None)
     patch.setattr(decode, "run", here)
 
 

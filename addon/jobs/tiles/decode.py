@@ -6,7 +6,6 @@ it is reported, and the others are decoded.
 
 from __future__ import annotations
 
-import contextlib
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -24,7 +23,7 @@ from ...tiles import decoded
 from .. import worker
 
 _MEMORY = limits.TILE_MEMORY
-"""Limit on the address space of a decoding process, bytes."""
+"""Limit on the memory of a decoding process, bytes."""
 _SECONDS = float(limits.TILE_SECONDS)
 """Limit on the time of a tile, s."""
 
@@ -92,9 +91,9 @@ def _decode(contents: list[DecodeTask], follow: Any) -> dict[str, str]:
             reached = done
             follow(first + done)
 
-        work = partial(in_process, contents[first:], memory=_MEMORY)
+        work = partial(in_process, contents[first:])
         try:
-            bad |= worker.run(work, count, blender=False, patience=_SECONDS)
+            bad |= worker.run(work, count, blender=False, patience=_SECONDS, size=_MEMORY)
             return bad
         except worker.EndedError as error:
             bad[contents[first + reached].name] = f"decoding {error}"
@@ -102,13 +101,10 @@ def _decode(contents: list[DecodeTask], follow: Any) -> dict[str, str]:
     return bad
 
 
-def in_process(
-    contents: list[DecodeTask], progress: Progress, tell: MessageCallback, memory: int = _MEMORY
-) -> dict[str, str]:
-    """Decode within `memory` bytes; worker side. Returns reasons of failures, by name."""
+def in_process(contents: list[DecodeTask], progress: Progress, tell: MessageCallback) -> dict[str, str]:
+    """Decode; worker side. Returns reasons of failures, by name."""
     from firetwin_core import tiles
 
-    _limit(memory)
     bad = {}
     for number, each in enumerate(contents):
         progress(number, len(contents))
@@ -127,11 +123,3 @@ def in_process(
             bad[each.name] = " ".join(str(error).split()) or "memory ran out"
     progress(len(contents), len(contents))
     return bad
-
-
-def _limit(memory: int) -> None:
-    """Limit this process's memory, if the system can: Windows has no module `resource`."""
-    with contextlib.suppress(ImportError, ValueError, OSError):
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))

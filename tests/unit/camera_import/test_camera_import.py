@@ -1,14 +1,19 @@
 """Cameras of other programs: exported poses come back to 1 cm and 0.01 degrees."""
 
 import json
+import sys
 import zipfile
+from functools import partial
 
+import child_work
 import numpy as np
 import pytest
 from firetwin import cli
 from firetwin.camera_import import foreign, job, kml, move, placing
 from firetwin.errors import InputError
 from firetwin.geometry import quaternion
+from firetwin.jobs import worker
+from firetwin.progress import silent
 from firetwin.shot.cameras import rotation
 from firetwin.shot.source import ShotSource
 from hypothesis import given
@@ -215,6 +220,19 @@ def test_foreign_cameras_are_unscaled_or_refused(tmp_path):
     for wrong in (np.diag([-1.0, 1, 1, 1]), np.diag([0.0, 1, 1, 1]), np.full((4, 4), np.nan)):
         with pytest.raises(InputError, match='camera "a"'):
             moves(wrong)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits the memory")
+@pytest.mark.parametrize(("work", "words"), [
+    (child_work.allocate, "does not fit into the memory"),
+    (child_work.abort, r"is damaged, or needs more than 0\.3 GB of memory or 120 s to read; export only"),
+])  # fmt: skip
+def test_memory_and_crashes_of_a_file_are_limited(tmp_path, monkeypatch, work, words):
+    child_work.importable(monkeypatch)
+    monkeypatch.setattr(foreign, "CAMERA_MEMORY", 1 << 28)
+    monkeypatch.setattr(worker, "run", partial(worker.run, blender=False))
+    with pytest.raises(InputError, match=rf"^{tmp_path}/a\.abc: {words}[^\n]*$"):
+        foreign.read(tmp_path / "a.abc", work, silent)
 
 
 def test_other_files_are_refused(scene, tmp_path):

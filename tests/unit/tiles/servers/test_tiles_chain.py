@@ -138,7 +138,6 @@ def here(contents, progress):
 @pytest.fixture
 def chain(ground, server, tmp_path, monkeypatch, clock):
     monkeypatch.setattr(tile_heights.np, "savez_compressed", np.savez)  # compressing takes most of the time
-    monkeypatch.setattr(decode, "_limit", lambda memory: None)
     monkeypatch.setattr(decode, "run", here)
     monkeypatch.setattr(tile_heights, "_MOST", 200)  # points of heights, which nothing here looks at
 
