@@ -114,7 +114,7 @@ class Briefing:
     sheet
         Choices for the printed sheets.
     sections, sentences
-        Further sections of the page, and sentences on methods.
+        Further sections, before the others, and sentences on methods.
     """
 
     run: Run

@@ -18,6 +18,7 @@ from ..html_text import quote
 from ..run import times
 from ..run.measure import AREA
 from . import brief_chart
+from . import forecast as forecasts
 from .ensemble import choice, describe, groups, place_arrivals, statistics
 from .ensemble.ensemble import Ensemble
 from .ensemble.place_arrivals import SHARES, PlaceArrivals
@@ -94,21 +95,23 @@ def add(briefing: Any, folder: Path) -> Any:
     points = briefing.points
     forecast = gather(folder, [each.latitude for each in points], [each.longitude for each in points])
     told = describe.sentence(forecast.ensemble.manifest)
-    sections = (*briefing.sections, section(briefing, forecast))
+    shown = forecasts.shown_by(forecast.ensemble, briefing.run)
+    sections = (*briefing.sections, section(briefing, forecast, shown))
     return replace(briefing, sections=sections, sentences=(*briefing.sentences, told))
 
 
-def section(briefing: Any, forecast: Forecast) -> str:
-    """Build the section."""
-    inner = "\n".join(_section(briefing, forecast))
+def section(briefing: Any, forecast: Forecast, shown: str) -> str:
+    """Build the section; `shown` names the member that the run of the page shows."""
+    inner = "\n".join(_section(briefing, forecast, shown))
     return (
         '<section aria-labelledby="forecast-title"><h2 id="forecast-title">How sure the forecast is</h2>\n'
         f"{inner}\n</section>"
     )
 
 
-def _section(briefing: Any, forecast: Forecast) -> Iterator[str]:
+def _section(briefing: Any, forecast: Forecast, shown: str) -> Iterator[str]:
     yield from _head(briefing, forecast)
+    yield f"<p>{quote(shown)}</p>"
     yield from _outcomes(briefing, forecast)
     yield from _places(briefing, forecast)
     yield from _map(briefing, forecast)

@@ -11,7 +11,7 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..did_you_mean import suggestion
-from ..errors import InputError
+from ..errors import InputError, input_error
 from ..geometry.grids import dilate
 from ..run import areas, content, front, times
 from ..shot.schema import scene_text
@@ -22,6 +22,7 @@ from .ensemble.ensemble import Ensemble
 AGREES = 0.97
 """Agreement of the burned areas of a run and of a member from which on they are the same fire. Runs of the
 sample's ensemble have 0.999 or more with their members, and at most 0.94 with others (measured)."""
+_SAME = 0.995  # agreement from which on the run is named as the member without its agreement
 _CACHED = 2  # ensembles
 
 
@@ -69,16 +70,19 @@ def outlier(forecast: Ensemble) -> int:
 
 
 def agreement(forecast: Ensemble, member: int, run: Run) -> Agreement:
-    """Compare burned areas at the last time that run, member and forecast have in common."""
+    """Compare burned areas at the last time that run, member and forecast have in common.
+
+    Two fires without any burned cell by then do not agree.
+    """
     shift = times.seconds(run, forecast.issued)
     end = min(forecast.members[member].end, forecast.horizon, float(run.times[-1]) - shift)
     theirs = forecast.arrival(member)
     mine = _burned(forecast, run, end + shift)
-    simulated = np.isfinite(mine) & ~np.isnan(theirs)
+    simulated = ~np.isnan(theirs)
     here, there, area = simulated & (mine == 1.0), simulated & (theirs <= end), forecast.areas
     either = float(area[here | there].sum())
     apart = (here & ~dilate(there, 1, False)) | (there & ~dilate(here, 1, False))
-    return Agreement(1.0 - float(area[apart].sum()) / either if either else 1.0, end)
+    return Agreement(1.0 - float(area[apart].sum()) / either if either else 0.0, end)
 
 
 def _burned(forecast: Ensemble, run: Run, time: float) -> NDArray[np.float64]:
@@ -96,6 +100,38 @@ def most_similar(forecast: Ensemble, run: Run) -> tuple[int, Agreement]:
     every = [agreement(forecast, member, run) for member in range(len(forecast.members))]
     best = max(range(len(every)), key=lambda member: every[member].share)
     return best, every[best]
+
+
+def mismatch(forecast: Ensemble, run: Run) -> str:
+    """Say which member agrees best with a run, if none agrees; else empty."""
+    best, same = most_similar(forecast, run)
+    if same.share >= AGREES:
+        return ""
+    return (
+        f"the most similar, {forecast.members[best].name}, has {same.share:.0%} of the area burned by either "
+        f"in common, and {AGREES:.0%} are needed"
+    )
+
+
+def shown_by(forecast: Ensemble, run: Run) -> str:
+    """Name the member that a run shows, in a sentence, with the agreement unless it is complete.
+
+    Raises
+    ------
+    InputError
+        The run is not a member of the forecast: it may be of another fire.
+    """
+    if reason := mismatch(forecast, run):
+        reason = f"has no member that is the run {run.path}: {reason}; give the run of a member"
+        raise input_error(forecast.path, reason)
+    best, same = most_similar(forecast, run)
+    name = forecast.members[best].name
+    if same.share >= _SAME:
+        return f"The run is member {name} of the forecast."
+    return (
+        f"The run is similar to member {name} of the forecast, but not equal: of the area that either "
+        f"burned by {times.iso(forecast.valid(same.time))}, {same.share:.1%} burned in both."
+    )
 
 
 def set_member(settings: Settings, forecast: Ensemble) -> int:

@@ -9,6 +9,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..run import times, zone
+from . import forecast
 from .ensemble import place_arrivals
 from .ensemble.ensemble import Ensemble
 from .ensemble.place_arrivals import SHARES
@@ -25,7 +26,13 @@ def add(result: dict[str, Any], run: Run, members: Ensemble, drawn: dict[str, An
         See `suggestion.describe`.
     drawn
         Map layer of the suggestion, with control lines at the hour of containment, or else the last hour.
+
+    Raises
+    ------
+    InputError
+        The run is not a member.
     """
+    shown = forecast.shown_by(members, run)
     where, lines = zone.time_zone(run), _lines(drawn)
     order = datetime.fromisoformat(result["from"]).astimezone(UTC)
     divisions = [each for each in result["divisions"] if each["name"] in lines]
@@ -55,6 +62,7 @@ def add(result: dict[str, Any], run: Run, members: Ensemble, drawn: dict[str, An
         f"forecast: {members.manifest.name}, {arrivals.count} of {total} members, issued "
         f"{times.text(members.issued, where)}; a line is reached when a member burns any point of it, and no "
         "work on it is counted",
+        f"forecast: {shown}",
         *filter(None, [arrivals.weights_note()]),
     ]
     return lines_of

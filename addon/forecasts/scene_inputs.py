@@ -83,12 +83,9 @@ def check_others(settings: Settings, runs: Mapping[str, Run]) -> None:
         return
     ensemble = forecast.of(settings)
     for i, (name, run) in enumerate(runs.items()):
-        best, same = forecast.most_similar(ensemble, run)
-        if same.share < forecast.AGREES:
+        if why := forecast.mismatch(ensemble, run):
             reason = (
-                f'run "{name}" is not a member of forecast.ensemble: the most similar, '
-                f"{ensemble.members[best].name}, has {same.share:.0%} of the area burned by either in "
-                f"common, and {forecast.AGREES:.0%} are needed; "
+                f'run "{name}" is not a member of forecast.ensemble: {why}; '
                 "name the run of a member, or leave out [forecast]"
             )
             raise scene_text.error_at(settings.path, ("runs", i, "path"), reason)

@@ -12,6 +12,7 @@ from firetwin_core.run import Run
 
 from ..run import times, zone
 from ..stations.records import Station
+from . import forecast
 from .ensemble import place_arrivals
 from .ensemble.ensemble import Ensemble
 from .ensemble.place_arrivals import SHARES, PlaceArrivals
@@ -21,21 +22,32 @@ _SHOWN = SHARES[:2]
 
 @dataclass(frozen=True)
 class MemberArrivals:
-    """Arrivals of the members of a forecast at stations (n,), with times of a zone."""
+    """Arrivals of the members of a forecast at stations (n,), with times of a zone.
+
+    `shown` names the member that the run of the list shows; "" without a run.
+    """
 
     arrivals: PlaceArrivals
     zone: str
+    shown: str = ""
     name: str = "forecast"
     late: str = "forecast: a tenth of the members do not reach it after that time"
 
     @classmethod
     def at(cls, ensemble: Ensemble, stations: Sequence[Station], run: Run | None) -> MemberArrivals:
-        """Sample the members at stations, with the time zone of the run, if there is one."""
+        """Sample the members at stations, with the time zone of the run, if there is one.
+
+        Raises
+        ------
+        InputError
+            The run is not a member.
+        """
+        shown = "" if run is None else forecast.shown_by(ensemble, run)
         where = zone.of_longitude(float(ensemble.longitude.mean())) if run is None else zone.time_zone(run)
         latitude, longitude = (
             [getattr(each, axis) for each in stations] for axis in ("latitude", "longitude")
         )
-        return cls(place_arrivals.sample(ensemble, latitude, longitude), where)
+        return cls(place_arrivals.sample(ensemble, latitude, longitude), where, shown)
 
     def heads(self) -> list[str]:
         """Return the titles of the columns."""
@@ -96,5 +108,5 @@ class MemberArrivals:
             f"forecast: {ensemble.manifest.name}, {self.arrivals.count} of {total} members, issued {issued}"
             + (" (synthetic)" if ensemble.manifest.synthetic else ""),
             f'forecast: it ends {end}; "later or never" is not "safe"',
-            *([f"forecast: {note}"] if note else []),
+            *(f"forecast: {text}" for text in (self.shown, note) if text),
         ]

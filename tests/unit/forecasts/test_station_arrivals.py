@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import small_stations
 from firetwin import cli
-from firetwin.forecasts import line_arrivals
+from firetwin.forecasts import forecast, line_arrivals
 from firetwin.forecasts.ensemble import ensemble, write
 from firetwin.forecasts.ensemble.manifest import Manifest, Member
 from firetwin.run import readers
@@ -19,6 +19,12 @@ def call(capsys, *arguments):
     """Run the command in this process: its output."""
     assert cli.main([*map(str, arguments)]) == 0
     return capsys.readouterr().out
+
+
+@pytest.fixture(autouse=True)
+def _any_run(monkeypatch):
+    """Accept the run of a list as a member: `test_forecast` has the check."""
+    monkeypatch.setattr(forecast, "shown_by", lambda *_: "The run is member 00 of the forecast.")
 
 
 @pytest.fixture
@@ -61,6 +67,7 @@ def test_members_of_a_forecast_at_stations(make_run, members, tmp_path, capsys):
     text = call(capsys, "resources", station_file, "--stations", "--run", make_run(), "--ensemble", members)
     assert "fire  " in text
     assert " Sep 2014" in text, "the zone of the run"
+    assert "forecast: The run is member 00 of the forecast." in text
 
 
 def test_members_at_a_control_line(make_run, members):
@@ -86,4 +93,5 @@ def test_members_at_a_control_line(make_run, members):
     assert lines["A"][0].startswith("members of the forecast at this line: 2 of 20 by ")
     assert lines["A"][0].endswith(" when the forecast ends")
     assert lines["A"][1] == "2 of 20 members reach it by hour 1"
+    assert suggestion["assumptions"][1] == "forecast: The run is member 00 of the forecast."
     assert suggestion["assumptions"][0].startswith("forecast: Many, 20 of 20 members, issued 16 Sep 2014 ")
