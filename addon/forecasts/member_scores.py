@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import Error
+from ..geometry.grids import within
 from ..run import times
 from ..run.arrival_grid import ArrivalGrid
 from ..run.observations import Observations
@@ -23,6 +24,8 @@ from .ensemble.statistics import depths
 
 MARGIN = 2000.0  # m around all members and perimeters: cells beyond count as agreement of no interest
 WINDOWS = 1, 3, 5, 9, 17, 33  # cells
+_DOMAIN = "cells with their centre within the margin of the centre of a burned cell, simulated by all members"
+_EDGE = "windows lie inside the grid of the ensemble"
 
 
 def score(ensemble: Ensemble, observations: Observations, zone: str = "UTC") -> dict[str, Any]:
@@ -67,8 +70,10 @@ def score(ensemble: Ensemble, observations: Observations, zone: str = "UTC") -> 
             "area": float(grid.areas[domain].sum()),
             "cells": int(domain.sum()),
             "margin": MARGIN,
+            "rule": _DOMAIN,
             "cell": list(grid.cell),
         },
+        "fss": {"rule": _EDGE, "outside": "cells that a member did not simulate count as unburned"},
         "arrival": _arrival(arrival, masks, moments, domain, grid),
         "dates": [
             _date(ensemble, arrival, mask, moment, domain, grid, names, deepest)
@@ -104,19 +109,9 @@ def _observed(
 
 
 def _domain(arrival: NDArray, masks: Sequence[NDArray[np.bool_]], grid: ArrivalGrid) -> NDArray[np.bool_]:
-    """Mask the cells within MARGIN of any burned area that all members simulated."""
+    """Mask the cells of the domain (see `_DOMAIN`)."""
     burned = (arrival < np.inf).any(0) | np.any(masks, axis=0)
-    width, height = grid.cell
-    down, across = int(np.ceil(MARGIN / height)), int(np.ceil(MARGIN / width))
-    for axis, reach in ((0, down), (1, across)):
-        total = np.cumsum(burned, axis=axis, dtype=np.int64)
-        count = burned.shape[axis]
-        high = np.take(total, np.minimum(np.arange(count) + reach, count - 1), axis)
-        low = np.arange(count) - reach - 1
-        before = np.take(total, np.maximum(low, 0), axis)
-        shape = (-1, 1) if axis == 0 else (1, -1)
-        burned = high - np.where((low < 0).reshape(shape), 0, before) > 0
-    return burned & ~np.isnan(arrival).any(0)
+    return within(burned, MARGIN, grid.cell) & ~np.isnan(arrival).any(0)
 
 
 def _arrival(
@@ -228,7 +223,7 @@ def page(results: dict[str, Any]) -> str:
             f"{spread}; {place}",
             f"  Brier score {brier['score']:.4f} = reliability {brier['reliability']:.4f} - resolution "
             f"{brier['resolution']:.4f} + uncertainty {brier['uncertainty']:.4f}",
-            f"  FSS (window in cells) {windows}",
+            f"  FSS (window in cells; {_EDGE}) {windows}",
             f"  Jaccard: best {_named(jaccard['best'])}, median {jaccard['median']:.3f}, "
             f"worst {_named(jaccard['worst'])}, deepest {_named(jaccard['deepest'])}",
         ]

@@ -1,4 +1,4 @@
-"""Dilation of masks, maximum and smoothing filters of fields, and connected components of masks."""
+"""Dilation and neighbourhoods of masks, maximum and smoothing filters of fields, and connected components."""
 
 from __future__ import annotations
 
@@ -28,6 +28,29 @@ def dilate(field: NDArray, reach: int, beyond: float | bool | None = None) -> ND
         windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis)
         field = functools.reduce(np.maximum, np.moveaxis(windows, -1, 0))
     return field
+
+
+def within(mask: Mask, reach: float, cell: tuple[float, float]) -> Mask:
+    """Mask the cells (h, w) whose centre is within a distance of the centre of a cell of a mask.
+
+    Parameters
+    ----------
+    reach
+        Largest Euclidean distance, m.
+    cell
+        Width and height of a cell, m.
+    """
+    width, height = cell
+    rows, columns = mask.shape
+    count = np.pad(np.cumsum(mask, axis=1), ((0, 0), (1, 0)))
+    column, near = np.arange(columns), np.zeros(mask.shape, np.bool_)
+    for down in range(min(int(reach / height), rows - 1) + 1):
+        across = int(np.sqrt(reach**2 - (down * height) ** 2) / width)
+        last, first = np.minimum(column + across + 1, columns), np.maximum(column - across, 0)
+        row = count[:, last] > count[:, first]
+        near[down:] |= row[: rows - down]
+        near[: rows - down] |= row[down:]
+    return near
 
 
 def blur(values: NDArray) -> NDArray:

@@ -61,6 +61,22 @@ def test_round_fires_by_their_closed_forms(forecast):
     assert row["fss"][0]["fss"] < row["fss"][-1]["fss"]
 
 
+def test_the_domain_is_a_disc_and_its_rules_are_written(tmp_path):
+    """Cells within 2 km of a round fire of 720 m: a square around them has 1.25 times the area, or more."""
+    latitude, longitude = axes(160)
+    time = round_fire(latitude, longitude, 0.1)
+    slow = 2.0 * time
+    each = [(Member(name), np.where(t <= 7200.0, t, np.inf)) for name, t in (("0", time), ("1", slow))]
+    write.write(tmp_path / "e", Manifest("Disc", "", ISSUED, 7200.0, ()), latitude, longitude, each)
+    scores = members.score(ensemble.open(tmp_path / "e"), seen(1.0, 360.0))
+    assert scores["domain"]["area"] == pytest.approx(np.pi * 2720.0**2, rel=0.02)
+    ring = np.pi * (360.0**2 - 180.0**2)  # burned in 1 of 2
+    assert scores["dates"][0]["brier"]["score"] == pytest.approx(ring / 4 / (np.pi * 2720.0**2), rel=0.03)
+    assert scores["domain"]["rule"].startswith("cells with their centre within the margin of the centre of a")
+    assert scores["fss"]["rule"] == "windows lie inside the grid of the ensemble"
+    assert "FSS (window in cells; windows lie inside the grid of the ensemble)" in members.page(scores)
+
+
 def test_arrival_is_censored_at_the_last_perimeter(forecast):
     """A fire that was seen nowhere near: what members burned by then is early by the rest of the time."""
     scores = members.score(forecast, seen(1.0, 60.0))

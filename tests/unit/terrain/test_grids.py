@@ -1,8 +1,8 @@
-"""Dilation and connected components against SciPy."""
+"""Dilation, distances and connected components against SciPy."""
 
 import numpy as np
 import pytest
-from firetwin.geometry.grids import dilate, label
+from firetwin.geometry.grids import dilate, label, within
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
@@ -26,6 +26,17 @@ def test_a_mask_grows_by_steps_of_eight_neighbours(reach, beyond):
     square = np.ones((3, 3), bool)
     expected = ndimage.binary_dilation(mask, square, iterations=reach, border_value=beyond)
     assert np.array_equal(dilate(mask, reach, beyond), expected)
+
+
+@given(masks, st.floats(0.5, 20.0), st.sampled_from([(1.0, 1.0), (0.7, 1.3), (3.0, 2.0)]))
+@settings(max_examples=80)
+def test_distances_to_a_mask_are_euclidean(mask, reach, cell):
+    away = np.full(mask.shape, np.inf)
+    if mask.any():
+        away = ndimage.distance_transform_edt(~mask, sampling=cell[::-1])
+    near = within(mask, reach, cell)
+    clear = np.abs(away - reach) > 1e-9
+    assert np.array_equal(near[clear], (away <= reach)[clear])
 
 
 @given(masks)
