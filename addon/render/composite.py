@@ -23,6 +23,7 @@ _REACH, _SAME_DEPTH = 2, 0.1  # pixels round an edge; relative depth tolerance o
 _GAP = 1.5  # of white: limit on the radiance of flames in gaps (by eye)
 _BEHIND = 1.25  # distance behind flames over the distance at which half of their light is emitted (by eye)
 _SOLID = 1.0e-6  # rounding of a share of all rays
+_GAPS, _BEYOND = 0.01, 1.1  # least share of gaps that are seen; distance of a tap in the sky over `SKY`
 _TOUCHES = 2.0e-3  # relative depth by which text may be behind a surface, such as the ground below it
 _SURE = 15.0  # rays at which a pixel's coverage has the same weight as its neighbours'; estimated
 
@@ -75,6 +76,7 @@ def taps(surfaces: Surfaces) -> Array:
     near, far = -dilate(-surfaces.distance, 1), dilate(surfaces.distance, 1)
     # Gaps that no central ray meets show the flames too. A farther tap would see flames behind the ground.
     far = np.where(_extended(surfaces), _BEHIND * surfaces.flame_distance, far)
+    far = np.where(_shows_sky(surfaces), np.maximum(far, np.float32(_BEYOND * SKY)), far)
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
 
 
@@ -122,7 +124,7 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     behind = solid * (share * near + (1.0 - share) * far)
     smoky = marched[..., 7] if marched.shape[-1] > 7 else marched[..., 3]
     edge = (np.abs(smoky[:, :, 0] - smoky[:, :, 1]) > _EDGE) & ~_extended(surfaces)
-    inner = _without_edges(solid, distances[..., 0], edge)
+    inner = _without_edges(solid, distances[..., 0], share[..., 0], edge)
     # At an edge in smoke the near surface takes the colour of its neighbours, because a denoiser mixes it
     # with distant light, such as fire behind smoke. Flames that are marched are not in that colour.
     split = share * inner * (near - far) + solid * far
@@ -286,8 +288,15 @@ def _hides_flames(surfaces: Surfaces, distances: Array) -> NDArray[np.bool_]:
 
 
 def _is_unknown(surfaces: Surfaces) -> NDArray[np.bool_]:
-    """Return a mask (h, w) of pixels with a material that writes no distance."""
-    return (surfaces.solid < 0.5) & (surfaces.distance < SKY)
+    """Return a mask (h, w) of pixels whose central ray meets a material that writes no distance."""
+    away = np.hypot(surfaces.distance, surfaces.aside)
+    written = surfaces.nearness * away / 1000.0 * surfaces.rays  # at least 1 if the central ray adds to it
+    return (surfaces.solid < 0.5) & (written < 0.5) & (surfaces.distance < SKY)
+
+
+def _shows_sky(surfaces: Surfaces) -> NDArray[np.bool_]:
+    """Return a mask (h, w) of pixels some of whose rays meet nothing, next to known materials alone."""
+    return (surfaces.solid < 1.0 - _GAPS) & ~dilate(_is_unknown(surfaces), 1)
 
 
 def _own_weight(rays: int) -> float:
@@ -332,20 +341,22 @@ def _flame_light(surfaces: Surfaces) -> Array:
     return np.where(alight, surfaces.colour * np.clip(part, 0.0, 1.0), 0.0)
 
 
-def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array:
-    """Replace edge pixels of a colour (h, w, 3) by the mean of non-edge neighbours at equal depth.
+def _without_edges(colour: Array, near: Array, share: Array, edge: NDArray[np.bool_]) -> Array:
+    """Replace edge pixels of a colour (h, w, 3) by that of their near surface, which covers a share (h, w).
 
-    If there are none, the pixel takes the darkest colour of its 3 x 3 neighbourhood: bright outliers are fire
-    behind smoke.
+    It is the mean of non-edge neighbours at equal depth. If there are none, as at twigs, it is extrapolated
+    from the pixel and the neighbour with the least share to a pixel that the near surface covers, up to the
+    darkest colour of the 3 x 3 neighbourhood: bright outliers are fire or sky behind smoke.
     """
     cleaned = colour.copy()
     rows, columns = np.nonzero(edge)
     if len(rows) == 0:
         return cleaned
     height, width = edge.shape
-    darkest = np.stack([-dilate(-colour[..., channel], 1) for channel in range(3)], axis=-1)
+    darkest = np.stack([-dilate(-colour[..., channel], 1) for channel in range(3)], axis=-1)[rows, columns]
     total, weight = np.zeros((len(rows), 3), np.float32), np.zeros(len(rows), np.float32)
-    here = near[rows, columns]
+    own, covered = colour[rows, columns], share[rows, columns]
+    here, least, farther = near[rows, columns], covered.copy(), own.copy()
     for down in range(-_REACH, _REACH + 1):
         for across in range(-_REACH, _REACH + 1):
             row, column = rows + down, columns + across
@@ -355,6 +366,12 @@ def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array
             part = np.float32(np.exp(-0.5 * (down**2 + across**2))) * alike
             total += part[:, None] * colour[row, column]
             weight += part
+            less = share[row, column] < least
+            least = np.where(less, share[row, column], least)
+            farther = np.where(less[:, None], colour[row, column], farther)
+    apart = np.maximum(covered - least, 1.0e-3)[:, None]
+    covering = ((1.0 - least)[:, None] * own - (1.0 - covered)[:, None] * farther) / apart
     mean = total / np.maximum(weight, 1.0e-9)[:, None]
-    cleaned[rows, columns] = np.where(weight[:, None] > 0.0, mean, darkest[rows, columns])
+    alone = np.clip(covering, 0.0, darkest)
+    cleaned[rows, columns] = np.where(weight[:, None] > 0.0, mean, alone)
     return cleaned

@@ -112,6 +112,34 @@ def test_the_sky_beside_a_twig_stays_behind_the_smoke():
     assert hidden[3, 6] == pytest.approx(2.0, rel=1e-3)
 
 
+def twig(share):
+    """Dark twig that covers this share of a column of pixels before a bright sky."""
+    solid = np.zeros(SIZE, np.float32)
+    solid[:, 4] = share
+    distance = np.full(SIZE, FAR)
+    distance[:, 4] = 5.0
+    colour = solid[..., None] * np.float32(0.5) + (1.0 - solid[..., None]) * np.full(3, 8.0, np.float32)
+    return surfaces(0.0, distance, colour=colour, noisy=colour, nearness=200.0 * solid, solid=solid, rays=8)
+
+
+@given(st.sampled_from([0.125, 0.25, 0.375, 0.75]))
+def test_a_twig_before_smoke_shows_its_own_colour_and_none_of_the_sky(share):
+    near = np.exp(-5.0 * 0.05)
+    expected = share * (0.5 * near + 2.0 * (1.0 - near)) + (1.0 - share) * 2.0
+    assert picture(twig(share), extinction=0.05)[3, 4] == pytest.approx(expected, rel=1e-3)
+
+
+@given(st.floats(0.1, 0.9))
+def test_the_sky_in_gaps_that_no_central_ray_meets_stays_behind_the_smoke(share):
+    """Between leaves that every central ray meets."""
+    leaves = np.full((*SIZE, 3), share * 0.5 + (1.0 - share) * 8.0, np.float32)
+    solid = np.full(SIZE, share, np.float32)
+    crown = surfaces(0.0, 5.0, colour=leaves, noisy=leaves, nearness=200.0 * solid, solid=solid)
+    near = np.exp(-5.0 * 0.05)
+    leaf = share * 2.0 * (1.0 - near) + (1.0 - share) * 2.0  # and some of the leaf's own colour
+    assert 0.999 * leaf <= picture(crown, extinction=0.05)[3, 4, 0] <= leaf + share * 8.0 * near
+
+
 @pytest.mark.parametrize(("rays", "part"), [(1, 0.75), (15, 0.5), (10**9, 0.25)])
 def test_few_rays_count_little_beside_what_neighbours_tell(rays, part):
     distance = np.full(SIZE, 200.0, np.float32)
