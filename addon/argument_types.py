@@ -35,6 +35,13 @@ def count(text: str) -> int:
     return int(text)
 
 
+def member(text: str) -> int:
+    """Convert the number of a member, 0 or more: ``7`` or ``07``."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"must be the number of a member, such as 07, not {text!r}")
+    return int(text)
+
+
 def architecture(text: str) -> str:
     """Accept the name of an NVIDIA architecture."""
     if not re.fullmatch(r"sm_\d{2,3}", text):

@@ -30,7 +30,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
         help="factor of the rate of spread, for a what-if run (1)",
     )
     parser.add_argument(
-        "--member", metavar="I", type=types.count, default=0, help="write the run of member I (0)"
+        "--member", metavar="I", type=types.member, default=0, help="write the run of member I (0)"
     )
     add_overwrite(parser)
 

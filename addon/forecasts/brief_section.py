@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..html_text import quote
 from ..run import times
+from ..run.areas import cell_size
 from ..run.measure import AREA
 from . import brief_chart
 from . import forecast as forecasts
@@ -61,6 +62,11 @@ class Forecast:
     def count(self) -> int:
         """Number of counted members."""
         return len(self.names)
+
+    @property
+    def cell(self) -> tuple[float, float]:
+        """Width and height of a cell, m."""
+        return cell_size(self.ensemble.latitude, self.ensemble.longitude)
 
     @property
     def total(self) -> int:
@@ -155,7 +161,7 @@ def _outcomes(briefing: Any, forecast: Forecast) -> Iterator[str]:
     low, middle, high = (unit.format(float(np.quantile(area, q))) for q in (0.0, 0.5, 1.0))
     yield (
         f"<p><b>Burned by {quote(end)}:</b> {low} to {high} {unit.name}; half of the members burn less than "
-        f"{middle}.</p>"
+        f"{middle}. Areas are of cells of {max(forecast.cell):.0f} m.</p>"
     )
     if forecast.second is None:
         return

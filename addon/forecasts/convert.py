@@ -67,7 +67,7 @@ def in_process(
 
     with reading(files[0]):
         if len(files) == 1 and gather.sniff(files[0]):
-            manifest, notes = gather.convert(files[0], out, horizon), []
+            manifest, notes = gather.convert(files[0], out, horizon, tell), []
         else:
             members = readers.read(files, options, horizon)
             manifest, notes = member_set.save(members, out, files[0]), members.notes

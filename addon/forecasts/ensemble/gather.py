@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +13,11 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ...errors import Error, InputError, input_error
+from ...progress import MessageCallback, no_message
 from ...run import readers, times
 from ...run.arrival_grid import ArrivalGrid
 from . import manifest, write
+from .ignitions import Ignitions
 from .manifest import MANIFEST, Manifest, Member
 
 _TOLERANCE = 0.01  # of a cell: shift between grids that counts as the same grid
@@ -52,7 +55,7 @@ def listed(path: Path) -> Manifest:
     return Manifest(path.name, "", None, 0.0, members, source=f"{len(runs)} runs")
 
 
-def convert(path: Path, out: Path, horizon: float = 0.0) -> Manifest:
+def convert(path: Path, out: Path, horizon: float = 0.0, tell: MessageCallback = no_message) -> Manifest:
     """Write an ensemble of the runs at `path` (see `listed`) to the folder `out`, and return its manifest.
 
     Parameters
@@ -94,7 +97,11 @@ def convert(path: Path, out: Path, horizon: float = 0.0) -> Manifest:
             end = min(member.end, float(run.times[-1]) + shift)
             yield replace(member, end=end), _placed(grids[member.name], shift, end, latitude, longitude)
 
-    return write.write(out, head, latitude, longitude, members())
+    if path.is_file() or (path / MANIFEST).is_file():  # the list gives the kind
+        return write.write(out, head, latitude, longitude, members())
+    ignitions = Ignitions(latitude, longitude)
+    amend = partial(ignitions.amend, tell=tell)
+    return write.write(out, head, latitude, longitude, ignitions.watch(members()), amend)
 
 
 def _absolute(listing: Manifest, folder: Path) -> Manifest:

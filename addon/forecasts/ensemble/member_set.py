@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import ParamSpec, TypeVar
 
@@ -15,6 +16,7 @@ from ...run.models import from_arrival_time
 from ...run.models.grid import Grid
 from ...run.models.model import Options
 from . import write
+from .ignitions import Ignitions
 from .manifest import Manifest
 
 Arguments = ParamSpec("Arguments")
@@ -128,4 +130,6 @@ def save(members: MemberSet, out: Path, source: Path) -> Manifest:
         (member, placed.put(values, np.nan) if isinstance(values, np.ndarray) else values)
         for member, values in members.members
     )
-    return write.write(out, members.head, placed.latitude, placed.longitude, arrivals)
+    ignitions = Ignitions(placed.latitude, placed.longitude)
+    amend = partial(ignitions.amend, tell=members.notes.append)
+    return write.write(out, members.head, placed.latitude, placed.longitude, ignitions.watch(arrivals), amend)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import BinaryIO
@@ -27,6 +27,7 @@ def write(
     latitude: NDArray[np.float64],
     longitude: NDArray[np.float64],
     members: Iterable[Read],
+    amend: Callable[[Manifest], Manifest] | None = None,
 ) -> Manifest:
     """Write an ensemble to a folder that does not exist, and return its manifest.
 
@@ -36,6 +37,8 @@ def write(
         Its members are replaced by `members` with arrival times; others are left out, with the reason.
     latitude, longitude
         Cell centres (ny,) and (nx,), degrees.
+    amend
+        Change of the manifest after all members are written.
 
     Raises
     ------
@@ -53,6 +56,7 @@ def write(
                 why = f"; {left_out[0].name}: {left_out[0].reason}" if left_out else ""
                 raise input_error(out, f"no member has arrival times{why}")
             complete = _complete(manifest, kept, left_out)
+            complete = amend(complete) if amend else complete
             np.save(part / "latitude.npy", latitude)
             np.save(part / "longitude.npy", longitude)
             files.write_text(part / MANIFEST, text(complete))

@@ -50,13 +50,23 @@ class Raster:
             return Grid.projected(self.x, self.y, known), ""
         return local(self.x, self.y, at)
 
-    def has_cells_of(self, other: Raster) -> bool:
-        """Check that two rasters have the same cells, to 1 % of a cell."""
-        if self.values.shape != other.values.shape:
-            return False
+    def difference(self, other: Raster) -> str:
+        """Say how the cells of two rasters differ by more than 1 % of a cell; empty if they do not.
+
+        A raster without a projection is taken to have the other's.
+        """
         axes = (self.x, other.x), (self.y, other.y)
-        step = min(float(np.abs(np.diff(axis)).min(initial=np.inf)) for _, axis in axes)
-        return max(float(np.abs(one - axis).max()) for one, axis in axes) <= 0.01 * step
+        limit = 0.01 * min(float(np.abs(np.diff(axis)).min(initial=np.inf)) for _, axis in axes)
+        if self.values.shape != other.values.shape or (
+            max(float(np.abs(one - axis).max()) for one, axis in axes) > limit
+        ):
+            return f"has other cells than {other.path.name}"
+        if self.projection and other.projection not in ("", self.projection):
+            ends = self.x[[0, -1]], self.y[[0, -1]]
+            x, y = _places(Grid.projected(*ends, other.projection), self.projection)
+            if not max(np.abs(x - ends[0]).max(), np.abs(y - ends[1][:, None]).max()) <= limit:
+                return f"has another coordinate system than {other.path.name}"
+        return ""
 
     def on(self, grid: Grid, projection: str) -> NDArray[np.float32]:
         """Resample to another grid by nearest neighbour, NaN outside."""

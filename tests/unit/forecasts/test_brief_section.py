@@ -74,6 +74,7 @@ def test_times_are_counts_of_members(folder, stations, tmp_path):
     text = section(folder, stations, made)
     assert "Issued 16 Sep 2014 20:00 -08, valid until 17 Sep 2014 02:00 -08<br>2.0 h old" in text
     assert "20 of 20 members" in text
+    assert "Areas are of cells of 60 m." in text
     assert [cells[0] for cells in rows(text)] == ["Alpha", "Bravo"]
     for cells in rows(text):
         assert cells[1:5] == ["burned before", "16 Sep 22:00", "later or never", "7 of 20"]

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import InputError
+from firetwin.forecasts.ensemble import statistics
 from small_ensemble import convert
 
 ASCII = "ncols 3\nnrows 2\nxllcorner 700000\nyllcorner 4300000\ncellsize 30\nNODATA_value -9999\n"
@@ -57,6 +58,17 @@ def test_each_case_is_a_member_by_its_last_map(folder, tmp_path):
     assert forecast.horizon == 7200.0
     assert forecast.manifest.kind == "forecast"
     assert messages[0].startswith("2 of 4 members")
+
+
+def test_a_case_ends_with_its_last_map(folder, tmp_path):
+    """Case 1 was simulated for 3 h, and case 2 for 6 h: after 3 h only the latter counts."""
+    arrival_map(folder, 1, 10800, "10 -9999 -9999\n-9999 -9999 -9999\n")
+    arrival_map(folder, 2, 21600, "10 14400 -9999\n-9999 -9999 -9999\n")
+    forecast, _, _ = convert(folder, tmp_path / "out")
+    assert [member.end for member in forecast.members] == [10800.0, 21600.0]
+    shares = statistics.shares(forecast, [10000.0, 20000.0])
+    assert shares.counted.tolist() == [2, 1]
+    assert shares.share[1].max() == 1.0
 
 
 def test_lists_of_burned_cells_count_rows_from_the_south(folder, tmp_path):

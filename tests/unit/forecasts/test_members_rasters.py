@@ -36,6 +36,34 @@ def test_rasters_of_farsite_are_in_minutes(tmp_path):
         convert(folder, tmp_path / "other")
 
 
+def test_members_need_one_coordinate_system(tmp_path):
+    """Equal numbers in two zones of UTM are 520 km apart; two spellings of one zone are one grid."""
+    import pyproj
+
+    folder = tmp_path / "farsite"
+    for name, zone in (("dry", 32610), ("wet", 32611)):
+        path = grid(folder / f"{name}_ArrivalTime.asc", "1 2\n-9999 4\n")
+        path.with_suffix(".prj").write_text(pyproj.CRS.from_epsg(zone).to_wkt("WKT1_ESRI"))
+    with pytest.raises(InputError, match=r"wet_ArrivalTime.asc: has another coordinate system than dry_Arr"):
+        convert(folder, tmp_path / "out", projection="")
+    path.with_suffix(".prj").write_text(pyproj.CRS.from_epsg(32610).to_wkt())
+    assert len(convert(folder, tmp_path / "out", projection="").arrival) == 2
+
+
+def test_members_with_other_ignitions_are_not_a_forecast(tmp_path):
+    """Fires that begin 600 m apart, in cells of 30 m; 30 m apart they are one fire."""
+    for name, first, second, kind in (("far", 0, 20, "ignitions"), ("near", 0, 1, "forecast")):
+        folder = tmp_path / name
+        for member, at in (("dry", first), ("wet", second)):
+            row = " ".join("1" if column == at else "-9999" for column in range(24))
+            path = grid(folder / f"{member}_ArrivalTime.asc", f"{row}\n{row}\n")
+            path.write_text(path.read_text().replace("ncols 2", "ncols 24"))
+        forecast, _, messages = convert(folder, tmp_path / f"{name}_out")
+        assert forecast.manifest.kind == kind
+        told = [text for text in messages if "the members begin up to 0.6 km apart" in text]
+        assert len(told) == (kind == "ignitions")
+
+
 def test_ranks_are_in_hours_and_are_not_a_forecast(tmp_path):
     folder = tmp_path / "ky-town_20231105_191700"
     grid(folder / "time-of-arrival_10.asc", "0 0\n0 0.5\n")

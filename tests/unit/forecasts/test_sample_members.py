@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from firetwin import argument_types, cli
 from firetwin.data import members, sample, stored
 from firetwin.errors import UsageError
 from firetwin.forecasts.ensemble import ensemble, synthetic
@@ -46,6 +47,14 @@ def test_member_zero_is_the_sample_and_others_depend_on_their_number(spread):
     np.testing.assert_array_equal(one[before], first[before])  # one initial perimeter
 
 
+def test_one_fire_has_one_area(spread):
+    """Member 0 and the sample, whose cells are a quarter as wide, have one burned area at each time."""
+    fine, first = stored.load().arrival, members.arrival(spread, 0)
+    for hour in (0.0, 6.0, 18.0, 24.0, stored.MINUTES / 60.0):
+        burned = (fine <= 3600.0 * hour).sum() * members.FUEL_CELL_SIZE**2
+        assert (first <= 3600.0 * hour).sum() * members.CELL_SIZE**2 == pytest.approx(burned, rel=0.01)
+
+
 def test_the_model_reproduces_the_fire_that_it_is_fitted_to(spread):
     burned = np.where(spread.arrival <= 0, 0.0, np.inf)
     times = members.travel(spread.rate, burned)
@@ -71,10 +80,12 @@ def test_an_ensemble_and_the_run_of_a_member(tmp_path):
     forecast = ensemble.open(tmp_path / "ensemble")
     assert forecast.manifest.synthetic
     assert [member.name for member in forecast.members] == ["00", "01"]
-    sample.write(tmp_path / "run", 2, member=1)
+    sample.write(tmp_path / "run", 2, member=argument_types.member(forecast.members[1].name))
     assert "member 01" in (tmp_path / "run" / "run.toml").read_text(encoding="utf-8")
     run = np.load(tmp_path / "run" / "fuel_arrival_time.npy")
     coarse = np.isfinite(run).reshape(members.CELLS, 4, members.CELLS, 4).any((1, 3))
     np.testing.assert_array_equal(coarse, np.isfinite(forecast.arrival(1)))
+    assert cli.main(["sample", str(tmp_path / "typical"), "--member", "0", "--frames", "2"]) == 0
+    assert argument_types.member("00") == 0
     with pytest.raises(UsageError, match="1 is not a number of members from 2 to 200"):
         synthetic.write(tmp_path / "one", 1)

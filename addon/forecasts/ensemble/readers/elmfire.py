@@ -1,6 +1,6 @@
 """Reader of ELMFIRE's Monte Carlo cases: an arrival map, or a list of burned cells, of each case.
 
-- ``time_of_arrival_<case>_<seconds>.tif``: seconds, the last map of each case
+- ``time_of_arrival_<case>_<seconds>.tif``: seconds, the last map of each case, whose simulation ends there
 - ``toa_<band>_<case>.bin``: Fortran records of n, column, row, arrival time (s) and others; columns and rows
   count from 1, rows from the south (elmfire_io.f90). Any raster of the inputs gives their grid.
 - ``fire_size_stats.csv``: a line for each case, with its weather band and ignition
@@ -73,11 +73,10 @@ def _members(cases: dict[str, Path], listed: set[str], like: raster.Raster) -> I
             if isinstance(arrival, InputError):
                 yield Member(case), arrival
                 continue
-            if not arrival.has_cells_of(like):
-                raise input_error(
-                    path, f"has other cells than {like.path.name}; members need cells of one grid"
-                )
-            yield Member(case), from_arrival_time.arrival_times(arrival, run_reader.SECOND)
+            if difference := arrival.difference(like):
+                raise input_error(path, f"{difference}; members need cells of one grid")
+            member = Member(case, end=float(run_reader.case_of(path)[1]))
+            yield member, from_arrival_time.arrival_times(arrival, run_reader.SECOND)
         else:
             yield Member(case), attempt(_list, path, (len(like.y), len(like.x)))
 

@@ -57,7 +57,6 @@ def _open(maps: Mapping[str, Path]) -> tuple[Opened, list[raster.Raster]]:
         reason = f"none of its {len(maps)} rasters can be read; {next(iter(opened.values()))}"
         raise input_error(next(iter(maps.values())).parent, reason)
     for each in good[1:]:
-        if not each.has_cells_of(good[0]):
-            reason = f"has other cells than {good[0].path.name}; members need cells of one grid"
-            raise input_error(each.path, reason)
+        if difference := each.difference(good[0]):
+            raise input_error(each.path, f"{difference}; members need cells of one grid")
     return opened, good
