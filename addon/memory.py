@@ -6,9 +6,10 @@ import contextlib
 import ctypes
 import functools
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 _ARENAS = "MALLOC_ARENA_MAX"
+_DATA = 5  # column of statm
 _MOST = "1"
 """Number of malloc arenas of a process. glibc creates up to eight per processor; each retains freed memory.
 
@@ -44,16 +45,35 @@ def _trim() -> Callable[[int], int] | None:
 
 
 def limit(size: int) -> None:
-    """Limit this process to `size` bytes of address space more than it has, if the system can.
+    """Limit this process to `size` bytes of data more than it has; only Linux can."""
+    _set_soft_limit(size)
 
-    Windows has no module `resource`, and macOS does not report the present size.
-    """
+
+@contextlib.contextmanager
+def limited(size: int) -> Iterator[None]:
+    """Limit this process to `size` bytes of data more than it has, within this block (see `limit`)."""
+    before = _set_soft_limit(size)
+    try:
+        yield
+    finally:
+        if before is not None:
+            import resource
+
+            resource.setrlimit(resource.RLIMIT_DATA, before)
+
+
+def _set_soft_limit(size: int) -> tuple[int, int] | None:
+    """Lower the limit on data (mapped files do not count); return the former limits, None if unchanged."""
     with contextlib.suppress(ImportError, ValueError, OSError):
         import resource
 
         with open("/proc/self/statm", encoding="ascii") as file:
-            size += int(file.read().split()[0]) * resource.getpagesize()
-        resource.setrlimit(resource.RLIMIT_AS, (size, size))
+            size += int(file.read().split()[_DATA]) * resource.getpagesize()
+        soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
+        if soft == resource.RLIM_INFINITY or size < soft:
+            resource.setrlimit(resource.RLIMIT_DATA, (size, hard))
+            return soft, hard
+    return None
 
 
 def peak() -> int:

@@ -72,7 +72,10 @@ READERS = {
     "model's folder": (lambda path: readers.gathered([path.parent]), "pathlib:Path.iterdir"),
     "model": (_convert, pyretechnics.__name__ + ":_grid"),
     "model's field": (_convert, write.__name__ + ":on_run_grid"),
-    "NumPy archive": (lambda path: pyretechnics._arrays(path.with_name("a.npz")), "numpy:load"),
+    "NumPy archive": (
+        lambda path: pyretechnics._arrays(path.with_name("a.npz")),
+        "numpy.lib.format:read_array",
+    ),
     "netCDF file": (_read_netcdf, netcdf.__name__ + ":_decoded"),
     "raster": (lambda path: raster.read(path.with_name("a.asc")), raster.__name__ + ":_read_ascii"),
     "landscape (LCP)": (lambda path: raster.landscape(path), raster.__name__ + ":_read_landscape"),

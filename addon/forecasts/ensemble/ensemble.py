@@ -16,6 +16,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import unpacking
 from ...errors import Error, input_error, reading
 from ...run.areas import cell_areas
 from .manifest import MANIFEST, LeftOut, Manifest, Member, read
@@ -168,8 +169,8 @@ def _axis(path: Path) -> NDArray[np.float64]:
     InputError
         The file is damaged, or its values do not ascend or descend.
     """
-    with reading(path, "NumPy file"):
-        axis = np.asarray(np.load(path, allow_pickle=False), np.float64)
+    axis = unpacking.read_npy(path)
+    axis = axis.astype(np.float64) if axis.dtype.kind in "iuf" else np.empty(0)
     step = np.diff(axis) if axis.ndim == 1 else np.array([np.nan])
     if not axis.size or not np.isfinite(axis).all() or not ((step > 0).all() or (step < 0).all()):
         raise input_error(path, "is not a list of ascending or descending degrees; convert it again")

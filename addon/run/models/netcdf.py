@@ -10,13 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import unpacking
 from ...errors import InputError, input_error, reading, refuse_odd
-from . import heartbeat, netcdf3_length, optional_packages
+from . import hdf5_links, heartbeat, netcdf3_length, optional_packages
 
 _MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
 _OPEN = 8  # open files at most
 _LARGEST = 1 << 31  # bytes of one read at most
 _CACHE = 1 << 28  # bytes of cached unpacked chunks
+_COPIES = 3  # of the read values
 UNWRITTEN = 9.9e35
 """Lower limit of netCDF's default fill values of floats, 9.97e36: values that are not written yet."""
 
@@ -57,6 +59,7 @@ class File:
         self.path = path
         library = optional_packages.package("netCDF4")
         with self.sense():
+            hdf5_links.refuse(path, library)
             self.data = library.Dataset(str(path))
             self.data.set_auto_maskandscale(False)
             self.variables: dict[str, Any] = dict(self.data.variables)
@@ -114,7 +117,15 @@ class File:
             if name not in self._cached:
                 self._cached.add(name)
                 _keep_chunks(variable)
-            return _decoded(variable, np.asarray(variable[index if index else Ellipsis]))
+            with unpacking.allowing(self._room(variable, size)):
+                values = np.asarray(variable[index if index else Ellipsis])
+            return _decoded(variable, values)
+
+    def _room(self, variable: Any, size: int) -> int:
+        """Return the memory for reading `size` bytes of a variable, with chunks of HDF5."""
+        chunks = variable.chunking()
+        chunk = np.prod(chunks, dtype=np.float64) if isinstance(chunks, list) else 0.0
+        return _COPIES * size + _CACHE + 4 * int(min(chunk * variable.dtype.itemsize, _LARGEST))
 
     def attribute(self, name: str, variable: str = "", otherwise: Any = None) -> Any:
         """Read an attribute of the file or of one of its variables."""

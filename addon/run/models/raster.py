@@ -7,15 +7,18 @@ import warnings
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import Any, TextIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError, input_error, reading
+from ...limits import UNPACKED_BYTES
 from . import heartbeat, optional_packages
 from .grid import Grid, project
 
 _LARGEST = 1 << 29  # values
+_PIECE = 1 << 24  # characters of an ASCII grid that are read at a time
 _ROLES = {
     "arrival": r"time[ _]*of[ _]*arrival|arrival[ _]*time|arrival|toa",
     "intensity": r"fireline[ _]*intensity|flin|fli|intensity",
@@ -154,9 +157,8 @@ def _read_gdal(path: Path) -> Raster:
     rasterio = optional_packages.package("rasterio")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", rasterio.errors.NotGeoreferencedWarning)
-        with rasterio.open(path) as source:
-            if source.width * source.height > _LARGEST:
-                raise _error(path, f"has {source.height} x {source.width} values, more than a model's raster")
+        with rasterio.open(path, driver=_driver(path)) as source:
+            _check_size(path, source, 1)
             a, b, c, d, e, f = source.transform[:6]
             if b or d:
                 raise _error(path, "is turned in its projection; gdalwarp makes it upright")
@@ -184,14 +186,28 @@ def read_bands(path: Path) -> tuple[NDArray[np.float32], list[str]]:
     rasterio = optional_packages.package("rasterio")
     with reading(path, "raster"), warnings.catch_warnings():
         warnings.simplefilter("ignore", rasterio.errors.NotGeoreferencedWarning)
-        with rasterio.open(path) as source:
-            if source.count * source.width * source.height > _LARGEST:
-                raise _error(path, f"has {source.count} bands, more values than a model's masks")
+        with rasterio.open(path, driver=_driver(path)) as source:
+            _check_size(path, source, source.count)
             values = source.read()
             converted = values.astype(np.float32)
             if source.nodata is not None and source.nodata != 0:
                 converted[values == source.nodata] = np.nan
             return converted, [text or "" for text in source.descriptions]
+
+
+def _driver(path: Path) -> str:
+    """Return the GDAL driver of a raster; GDAL itself also opens a VRT, which names files and servers."""
+    if path.suffix.lower() != ".bil":
+        return "GTiff"
+    with path.with_suffix(".hdr").open("rb") as header:
+        return "ENVI" if header.read(4) == b"ENVI" else "EHdr"
+
+
+def _check_size(path: Path, source: Any, bands: int) -> None:
+    size = bands * source.height * source.width * max(np.dtype(each).itemsize for each in source.dtypes)
+    if size > UNPACKED_BYTES:
+        shape = f"{bands} x {source.height} x {source.width} values"
+        raise _error(path, f"has {shape}, more than {UNPACKED_BYTES / 1e6:,.0f} MB; take a part of it")
 
 
 def _read_ascii(path: Path) -> Raster:
@@ -200,22 +216,19 @@ def _read_ascii(path: Path) -> Raster:
     with path.open(encoding="ascii", errors="replace") as file:
         while len(head) < 6:
             at = file.tell()
-            words = file.readline().split()
+            words = file.readline(_PIECE).split()
             if len(words) != 2 or not words[0][0].isalpha():
                 file.seek(at)
                 break
-            head[words[0].lower()] = float(words[1])
+            head[words[0].lower()] = _number(words[1])
         if not {"ncols", "nrows", "cellsize"} <= set(head):
             raise _error(path, "its header has no ncols, nrows or cellsize")
+        if not np.isfinite([value for name, value in head.items() if name != "nodata_value"]).all():
+            raise _error(path, "its header has a value that is not a number")
         nx, ny, side = int(head["ncols"]), int(head["nrows"]), head["cellsize"]
         if not (0 < nx * ny <= _LARGEST and nx > 0 and side > 0):
             raise _error(path, f"has {ny} rows, {nx} columns and cells of {side}, which makes no sense")
-        lines = len(head)
-        rest = file.read()
-    try:
-        values = np.array(rest.split(), np.float32)
-    except ValueError:
-        raise _wrong_word(path, rest, lines) from None
+        values = _read_values(path, file, len(head), nx * ny)
     if values.size != nx * ny:
         raise _error(path, f"has {values.size} values where its head says {ny} x {nx}; it is incomplete")
     values = values.reshape(ny, nx)
@@ -223,6 +236,28 @@ def _read_ascii(path: Path) -> Raster:
     corner = [head.get(f"{axis}llcorner", head.get(f"{axis}llcenter", 0.0) - side / 2) for axis in "xy"]
     x, y = corner[0] + side * (np.arange(nx) + 0.5), corner[1] + side * (ny - np.arange(ny) - 0.5)
     return Raster(path, _mask_no_data(values), x, y, _prj(path))
+
+
+def _number(word: str) -> float:
+    try:
+        return float(word)
+    except ValueError:
+        return float("nan")
+
+
+def _read_values(path: Path, file: TextIO, above: int, count: int) -> NDArray[np.float32]:
+    """Read numbers after the lines `above`, up to a few more than `count`, in pieces of lines."""
+    pieces = [np.empty(0, np.float32)]
+    while count >= 0 and (text := file.read(_PIECE)):
+        text += (end := file.readline(_PIECE))
+        if len(end) == _PIECE:
+            raise _error(path, f"has a line of more than {_PIECE / 1e6:,.0f} MB; write one line for each row")
+        try:
+            pieces.append(np.array(text.split(), np.float32))
+        except ValueError:
+            raise _wrong_word(path, text, above) from None
+        count, above = count - pieces[-1].size, above + text.count("\n")
+    return np.concatenate(pieces)
 
 
 def _wrong_word(path: Path, text: str, above: int) -> InputError:

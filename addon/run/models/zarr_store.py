@@ -11,7 +11,6 @@ from __future__ import annotations
 import base64
 import sys
 import warnings
-import zipfile
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
@@ -20,11 +19,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import unpacking
 from . import netcdf, optional_packages
 
 _ROOT = (".zgroup", "zarr.json", ".zmetadata")
 _ARRAYS = 1000  # arrays of a store at most
 _CHUNK = 1 << 30  # bytes of a chunk at most
+_WAYS = 10  # chunks that are read concurrently
+_METADATA = 1 << 28  # bytes of all metadata
 _KEPT = 1 << 28  # bytes of decoded times of a chunk in the cache
 _CODECS = frozenset(
     (
@@ -57,13 +59,7 @@ def is_store(path: Path) -> bool:
     """Check whether a folder or a ZIP archive has the metadata of a zarr group."""
     if path.is_dir():
         return any((path / name).is_file() for name in _ROOT)
-    try:
-        if path.suffix.lower() != ".zip" or not zipfile.is_zipfile(path):
-            return False
-        with zipfile.ZipFile(path) as archive:
-            return bool(set(_ROOT) & set(archive.namelist()))
-    except (OSError, zipfile.BadZipFile):
-        return False
+    return path.suffix.lower() == ".zip" and unpacking.has_member(path, _ROOT)
 
 
 class ZarrFile(netcdf.File):
@@ -82,7 +78,7 @@ class ZarrFile(netcdf.File):
         library = optional_packages.package("zarr")
         self._cached: set[str] = set()
         self.dimensions = {}
-        with self.sense(), warnings.catch_warnings():
+        with self.sense(), unpacking.allowing(_METADATA), warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about names that are not part of the format
             storage = library.storage
             store = (
@@ -107,7 +103,16 @@ class ZarrFile(netcdf.File):
             size = int(np.prod(array.chunks, dtype=np.float64)) * array.dtype.itemsize
             if size > _CHUNK:
                 raise self.error(f"{name} has chunks of {size / 1e6:,.0f} MB; write chunks below 1,000 MB")
+            ways = min(_WAYS, max(1, _KEPT // max(size, 1)))
+            with optional_packages.package("zarr").config.set({"async.concurrency": ways}):
+                return super().read(name, *index)
         return super().read(name, *index)
+
+    def _room(self, variable: Any, size: int) -> int:
+        """Return the memory for reading `size` bytes, with chunks that are unpacked concurrently."""
+        array = variable.array
+        chunk = int(np.prod(array.chunks, dtype=np.float64)) * array.dtype.itemsize
+        return super()._room(variable, size) + 2 * max(chunk, _KEPT)
 
     def close(self) -> None:
         """Close the store."""

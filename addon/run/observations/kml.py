@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import zipfile
-import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
-from ... import files, limits
-from ...errors import input_error
+from ... import files, limits, unpacking
+from ...errors import InputError, input_error
 from . import xml_tree
 from .feature import Feature, Polygon, Ring, degrees, ring
 
 SUFFIXES = (".kml", ".kmz")
-_LARGEST = limits.TEXT_BYTES
 
 
 def read(path: Path) -> list[Feature]:
@@ -42,12 +40,12 @@ def unpack_kmz(path: Path) -> bytes:
             inside = [item for item in archive.infolist() if item.filename.lower().endswith(".kml")]
             if not inside:
                 raise input_error(path, "contains no .kml file")
-            if inside[0].file_size > _LARGEST:
-                raise input_error(path, f"its .kml has {inside[0].file_size / 1e6:,.0f} MB")
-            text = archive.read(inside[0])
+            text = unpacking.read_member(path, archive, inside[0], limits.TEXT_BYTES)
             files.check_values(path, [text])
             return text
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError) as error:
+    except InputError:
+        raise
+    except unpacking.ERRORS as error:
         raise input_error(path, f"not a KMZ file: {str(error)[:1].lower()}{str(error)[1:]}") from None
 
 

@@ -9,13 +9,13 @@ cubes: `wind_speed_10m` (km/h) and `upwind_direction` (degrees), each one number
 
 from __future__ import annotations
 
-import zipfile
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import input_error, reading
+from ... import unpacking
+from ...errors import input_error
 from ..models import companion_rasters, from_arrival_time, given_wind, one_run
 from ..models.given_wind import Wind
 from ..models.grid import Grid
@@ -25,19 +25,10 @@ from ..models.raster import local
 NAME, ORDER = "arrays of pyretechnics", 60
 MODELS = "pyretechnics"
 
-_LARGEST = 1 << 32  # bytes of one matrix
-
 
 def sniff(path: Path) -> bool:
     """Check whether a file is an array archive with a time of arrival."""
-    try:
-        with path.open("rb") as file:
-            if file.read(4) != b"PK\x03\x04":
-                return False
-        with zipfile.ZipFile(path) as archive:
-            return "time_of_arrival.npy" in archive.namelist()
-    except (OSError, zipfile.BadZipFile):
-        return False
+    return unpacking.has_member(path, ["time_of_arrival.npy"])
 
 
 def resembles(path: Path) -> bool:
@@ -134,10 +125,4 @@ def _arrays(path: Path) -> dict[str, NDArray]:
     )
     wanted += ("latitude", "longitude", "x", "y", "cell_width", "cell_height")
     wanted += ("wind_speed_10m", "upwind_direction", "band_duration")
-    with reading(path, "NumPy archive"):
-        with zipfile.ZipFile(path) as archive:
-            sizes = {member.filename: member.file_size for member in archive.infolist()}
-        if max(sizes.values()) > _LARGEST:
-            raise input_error(path, "holds an array that is larger than any fire")
-        with np.load(path, allow_pickle=False) as arrays:
-            return {name: arrays[name].astype(np.float64) for name in wanted if name in arrays.files}
+    return unpacking.read_npz(path, wanted, np.float64)

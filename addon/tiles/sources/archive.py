@@ -5,18 +5,15 @@ from __future__ import annotations
 import posixpath
 import threading
 import zipfile
-import zlib
 from pathlib import Path
 
-from ... import limits
+from ... import limits, unpacking
 from ...errors import InputError, input_error
 from ._source import GROWTH, MAX_BYTES, Source, check_size, missing, unpack
 from .local import relative
 
-_METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _MOST_MEMBERS = limits.TILE_MEMBERS
 _FREE = 1 << 20  # bytes; smaller members may exceed the ratio
-_ENCRYPTED = 0x1
 
 
 class Archive(Source):
@@ -55,17 +52,12 @@ class Archive(Source):
         check_size(member.file_size, max_bytes, name)
         if member.file_size > max(GROWTH * member.compress_size, _FREE):
             raise input_error(name, f"grows more than {GROWTH} times when decompressed")
-        if member.compress_type not in _METHODS:
-            reason = (
-                f"is compressed by method {member.compress_type}; pack the archive with deflate, or without"
-            )
-            raise input_error(name, reason)
-        if member.flag_bits & _ENCRYPTED:
-            raise input_error(name, "is encrypted; pack the archive without a password")
+        if fault := unpacking.member_fault(member):
+            raise input_error(name, fault)
         try:
             with self._lock, self._zip.open(member) as file:
                 data = file.read(member.file_size + 1)
-        except (OSError, EOFError, ValueError, zipfile.BadZipFile, zlib.error, NotImplementedError) as error:
+        except unpacking.ERRORS as error:
             raise missing(name, f"is damaged: {error}") from error
         if len(data) != member.file_size:
             raise missing(name, f"has {len(data):,} bytes, not {member.file_size:,} as the archive says")

@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .... import unpacking
 from ....errors import input_error, reading
 from ....files import check_text_size
 from ....run.models import netcdf, raster, zarr_store
@@ -35,6 +36,7 @@ from ..member_set import MemberSet, describe
 
 NAME, ORDER = "samples described in a TOML file ([samples])", 10
 
+_LISTED = 300  # characters of listed names
 _UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 _AXES = {"burned": ("member", "time", "y", "x"), "arrival": ("member", "y", "x")}
 _KEYS = {
@@ -147,16 +149,20 @@ class _File:
         if netcdf.is_netcdf(path) or zarr_store.is_store(path):
             opened = netcdf.File(path) if netcdf.is_netcdf(path) else zarr_store.ZarrFile(path)
             return cls(opened.shape(variable), lambda *at: opened.read(variable, *at))
-        with reading(path, "NumPy file"):
-            if path.suffix == ".npy":
+        if path.suffix == ".npy":
+            with reading(path, "NumPy file"):
                 array = np.load(path, mmap_mode="r", allow_pickle=False)
-            else:
-                with np.load(path, allow_pickle=False) as arrays:
-                    if variable not in arrays.files:
-                        names = ", ".join(arrays.files)
-                        raise input_error(path, f'has no array "{variable}"; variable is one of {names}')
-                    array = arrays[variable]
+        else:
+            array = _archived(path, variable)
         return cls(array.shape, lambda *at: np.asarray(array[at]))
+
+
+def _archived(path: Path, variable: str) -> NDArray:
+    """Read an array of an .npz file."""
+    if variable not in (names := unpacking.npz_names(path)):
+        listed = ", ".join(names)
+        raise input_error(path, f'has no array "{variable}"; variable is one of {listed[:_LISTED]}')
+    return unpacking.read_npz(path, [variable])[variable]
 
 
 def _check(said: Description, sizes: tuple[int, ...]) -> None:
