@@ -10,7 +10,6 @@ import argparse
 import functools
 import io
 import os
-import shlex
 import sys
 from collections.abc import Sequence
 from typing import NoReturn
@@ -110,7 +109,9 @@ def _report(error: Exception) -> int:
     elif isinstance(error, ModuleNotFoundError) and error.name == "bpy":
         text = "Blender's Python module (bpy) is missing; install it with: pip install 'firetwin[blender]'"
     elif isinstance(error, ModuleNotFoundError) and error.name in ("matplotlib", "PIL"):  # not in Blender
-        pip = f"{shlex.quote(sys.executable)} -m pip install matplotlib"  # it brings Pillow
+        from . import extras
+
+        pip = extras.install_packages("matplotlib")  # it brings Pillow
         text = f"maps and plots need matplotlib; install it with: {pip}"
     else:
         text = f"unexpected {type(error).__name__}: {error} (run again with --debug for the details)"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import extras
 from ..errors import Error
 from . import symmetry
 from .problem import Problem
@@ -52,7 +52,7 @@ def import_scipy() -> ModuleType:
     try:
         import scipy.optimize
     except ImportError:
-        pip = f"{sys.executable} -m pip install 'scipy>=1.11'"
+        pip = extras.install("resources")
         raise Error(
             f"allocation needs the Python package scipy, not in Blender; install it with: {pip}"
         ) from None

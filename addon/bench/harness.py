@@ -14,6 +14,7 @@ from typing import Any
 
 import firetwin_core as core
 
+from .. import extras
 from .timing import MOST, SECONDS, Runner, Times, label, race
 
 OURS = "firetwin"
@@ -141,7 +142,7 @@ class Bench:
             return importlib.import_module(name)
         except ImportError as error:
             missing = isinstance(error, ModuleNotFoundError) and error.name == name
-            why = "is not installed (pip install 'firetwin[bench]')" if missing else "cannot be imported"
+            why = f"is not installed ({extras.install('bench')})" if missing else "cannot be imported"
             self.skip(f"{name} {why}")
             return None
 

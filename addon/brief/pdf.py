@@ -6,11 +6,10 @@ import importlib.util
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-from .. import output
+from .. import extras, output
 from ..errors import UsageError
 from .map_sheet import MapSheet
 
@@ -49,14 +48,13 @@ def check(pdf: Path | None, geopdf: Path | None) -> None:
     if pdf and not browser and importlib.util.find_spec("weasyprint") is None:
         raise UsageError(
             "--pdf: there is neither Chromium, Chrome or Edge nor WeasyPrint; install one "
-            f"({sys.executable} -m pip install weasyprint), or print the page from a browser"
+            f"({extras.install_packages('weasyprint')}), or print the page from a browser"
         )
     if geopdf and not browser:
         raise UsageError("--geopdf: there is no Chromium, Chrome or Edge to draw the sheet; install one")
     if geopdf and not _has_driver():
         raise UsageError(
-            "--geopdf: GDAL with its PDF driver is missing; install it: "
-            f"{sys.executable} -m pip install 'firetwin[raster]'"
+            f"--geopdf: GDAL with its PDF driver is missing; install it: {extras.install('raster')}"
         )
 
 

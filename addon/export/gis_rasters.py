@@ -10,7 +10,7 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from .. import files
+from .. import extras, files
 from ..errors import Error
 from ..run import areas, fronts, thumbnails, times
 from .overlays import nearest
@@ -160,6 +160,6 @@ def _rasterio() -> ModuleType:
         import rasterio.shutil
         import rasterio.transform
     except ModuleNotFoundError:
-        reason = "the GIS export needs rasterio; install it with: pip install 'firetwin[raster]'"
+        reason = f"the GIS export needs rasterio; install it with: {extras.install('raster')}"
         raise Error(reason) from None
     return rasterio

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import extras
 from ...errors import Error
 from ...geometry.polygons import area, inside
 
@@ -75,7 +76,8 @@ def triangles(rings: Rings) -> Array:
     try:
         import shapely
     except ImportError:
-        raise Error("tiles of buildings need the package shapely: pip install 'firetwin[score]'") from None
+        reason = f"tiles of buildings need the package shapely: {extras.install('score')}"
+        raise Error(reason) from None
     parts = shapely.constrained_delaunay_triangles(shapely.Polygon(rings[0], rings[1:])).geoms
     return anticlockwise(np.array([np.asarray(part.exterior.coords)[:3] for part in parts]))
 

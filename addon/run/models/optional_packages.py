@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import importlib
 import os
-import sys
 from types import ModuleType
 
+from ... import extras
 from ...errors import Error
-
-ALL = "netCDF4 pyproj pyshp rasterio zarr"
 
 
 def package(name: str) -> ModuleType:
@@ -27,8 +25,5 @@ def package(name: str) -> ModuleType:
     try:
         return importlib.import_module(name)
     except ImportError:
-        pip = f"{sys.executable} -m pip install"
-        raise Error(
-            f"reading this needs the Python package {name}; install it with: {pip} {name} "
-            f"(or all that models' files need: {pip} {ALL})"
-        ) from None
+        pip = extras.install_for(name)
+        raise Error(f"reading this needs the Python package {name}; install it with: {pip}") from None

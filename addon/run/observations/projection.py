@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import extras
 from ...errors import input_error
 from ...geometry import mercator
 from ...geometry.utm import Zone
@@ -51,9 +52,7 @@ def to_degrees(path: Path, system: str, points: Array) -> Array:
         from pyproj.exceptions import ProjError
     except ModuleNotFoundError:
         name = system.split('"')[1] if '"' in system else system
-        reason = (
-            f"is in {name}: save it in WGS84 (EPSG:4326), or install pyproj (pip install 'firetwin[score]')"
-        )
+        reason = f"is in {name}: save it in WGS84 (EPSG:4326), or install pyproj ({extras.install('score')})"
         raise input_error(path, reason) from None
     try:
         east, north = Transformer.from_crs(code, "EPSG:4326", always_xy=True).transform(*points.T)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ... import extras
 from ...errors import input_error
 from .feature import Feature, Polygon, degrees, ring
 from .projection import to_degrees
@@ -27,7 +28,7 @@ def read(path: Path) -> list[Feature]:
     try:
         import shapefile
     except ModuleNotFoundError:
-        reason = "shapefiles need pyshp: pip install 'firetwin[score]'; or save it as GeoJSON"
+        reason = f"shapefiles need pyshp: {extras.install('score')}; or save it as GeoJSON"
         raise input_error(path, reason) from None
     try:
         system = path.with_suffix(".prj").read_text(encoding="utf-8", errors="replace").strip()

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import itertools
-import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import extras
 from ...errors import UsageError
 from .. import areas
 from ..arrival_grid import NEVER, fill_unburned, pad_axis
@@ -32,7 +32,7 @@ def needed() -> None:
         import pyproj  # noqa: F401
         import shapely  # noqa: F401
     except ModuleNotFoundError as error:
-        pip = f"{sys.executable} -m pip install 'firetwin[score]'"
+        pip = extras.install("score")
         raise UsageError(f"scores need {error.name}; install it with: {pip}") from None
 
 

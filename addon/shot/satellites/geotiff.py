@@ -9,7 +9,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from ... import output
+from ... import extras, output
 from ...errors import Error
 from .imager import ImagerPicture, Instrument, PowerBand
 
@@ -76,6 +76,6 @@ def _rasterio() -> ModuleType:
     try:
         import rasterio
     except ModuleNotFoundError:
-        reason = "GeoTIFF needs rasterio; install it with: pip install 'firetwin[raster]'"
+        reason = f"GeoTIFF needs rasterio; install it with: {extras.install('raster')}"
         raise Error(reason) from None
     return rasterio

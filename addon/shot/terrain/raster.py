@@ -6,7 +6,6 @@ most `_MEMORY`.
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,6 +17,7 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
+from ... import extras
 from ...errors import InputError, input_error, reading
 from ...run import areas
 from ..schema import scene_text
@@ -45,7 +45,7 @@ def library(settings: SceneSettings, name: str) -> ModuleType:
         import rasterio.warp
         import rasterio.windows
     except ImportError:
-        reason = f"terrain.{name} needs the Python package rasterio: {sys.executable} -m pip install rasterio"
+        reason = f"terrain.{name} needs the Python package rasterio: {extras.install('raster')}"
         raise scene_text.error_at(settings.path, ("terrain", name), reason) from None
     return rasterio
 

@@ -14,7 +14,7 @@ from urllib.parse import urlsplit
 
 import firetwin_core
 
-from ... import limits
+from ... import extras, limits
 from ...errors import InputError, UsageError, input_error
 from ._source import GROWTH, missing
 from .address import Guard, origin
@@ -233,6 +233,6 @@ def _urllib3() -> Any:
         import urllib3.connection
         import urllib3.exceptions
     except ImportError:
-        text = "tiles of servers need urllib3; install it with: pip install 'firetwin[tiles]'"
+        text = f"tiles of servers need urllib3; install it with: {extras.install('tiles')}"
         raise UsageError(text) from None
     return urllib3

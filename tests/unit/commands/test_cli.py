@@ -80,7 +80,7 @@ sys.exit(main(["maps", *sys.argv[1:]]))
     assert result.returncode == 1
     *_, last = result.stderr.splitlines()
     assert last.startswith("firetwin: maps and plots need matplotlib")
-    assert last.endswith(f"{sys.executable} -m pip install matplotlib")
+    assert last.endswith(f"{sys.executable} -m pip install matplotlib numpy=={np.__version__}")
     assert "Traceback" not in result.stderr
 
 

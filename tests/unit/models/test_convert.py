@@ -228,7 +228,8 @@ def test_a_missing_package_is_one_line(tmp_path, monkeypatch):
     paths, _ = damage.files_of("forefire", tmp_path)
     monkeypatch.setitem(sys.modules, "netCDF4", None)
     with pytest.raises(
-        Error, match=r"needs the Python package netCDF4; install it with: .*-m pip install netCDF4"
+        Error,
+        match=r"needs the Python package netCDF4; install it with: .*-m pip install 'firetwin\[models\]'",
     ):
         in_process(paths, tmp_path / "out")
 

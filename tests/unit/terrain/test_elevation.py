@@ -227,7 +227,7 @@ def test_without_rasterio_it_says_what_to_install(make, monkeypatch):
 
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(
-        InputError, match=r"scene\.toml:9:1: terrain\.elevation needs .* -m pip install rasterio"
+        InputError, match=r"scene\.toml:9:1: terrain\.elevation needs .* 'firetwin\[raster\]'"
     ):
         make().shot()
     make(key="").shot()

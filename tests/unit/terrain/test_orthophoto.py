@@ -121,7 +121,7 @@ def test_a_photo_without_rasterio_is_a_png(make, tmp_path, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "rasterio", None)
     assert len(orthophoto.pictures(make(place(tmp_path, "world file")).shot())) == 1
     (tmp_path / "photo.tif").write_bytes(b"II*\0" + bytes(40))
-    with pytest.raises(InputError, match=r"scene\.toml:9:1: terrain\.photo needs .* pip install rasterio"):
+    with pytest.raises(InputError, match=r"scene\.toml:9:1: terrain\.photo needs .* 'firetwin\[raster\]'"):
         make('photo = "photo.tif"').shot()
 
 
