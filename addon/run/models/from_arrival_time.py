@@ -183,7 +183,7 @@ def _fuel(maps: Maps, grid: Grid, land: LandRasters, projection: str, notes: lis
     """Find fuel in maps or companion rasters; otherwise from the model's heat per area, or constant."""
     category = maps.category if maps.category is not None else land.category(grid, projection)
     canopy = np.nan_to_num(maps.canopy if maps.canopy is not None else land.canopy(grid, projection))
-    burned, own = np.isfinite(maps.arrival), _own_heat(maps, grid, notes)
+    burned, own = np.isfinite(maps.arrival), _own_heat(maps, grid, canopy, notes)
     by_heat = None if own is None else np.maximum(own / constants.HEAT_OF_COMBUSTION - canopy, 0.0)
     if maps.surface is not None:
         surface, has_fuel = np.nan_to_num(maps.surface), np.isfinite(maps.surface)
@@ -206,16 +206,27 @@ def _fuel(maps: Maps, grid: Grid, land: LandRasters, projection: str, notes: lis
     return _Fuel(surface.astype(np.float32), canopy, category)
 
 
-def _own_heat(maps: Maps, grid: Grid, notes: list[str]) -> NDArray | None:
-    """Return the model's heat per area (J/m2), limited to the heaviest fuel; None if there is none."""
+def _own_heat(maps: Maps, grid: Grid, canopy: NDArray, notes: list[str]) -> NDArray | None:
+    """Return the model's heat per area (J/m2), limited to the heaviest fuel; None if there is none.
+
+    The limit is the load of the heaviest standard fuel model and the cell's canopy fuel (kg/m2).
+    """
     if maps.per_area is not None:
         heats = np.nan_to_num(np.asarray(maps.per_area, np.float64))
-        return np.minimum(heats, constants.HEAT_OF_COMBUSTION * fuels.HEAVIEST)
-    if maps.intensity is None:
+    elif maps.intensity is not None:
+        whence = ", by the time of arrival at the neighbours that it came from" if maps.speed is None else ""
+        notes.append(f"heat per area is fireline intensity over rate of spread{whence}")
+        heats = heat_from_intensity.of_intensity(maps.arrival, maps.intensity, maps.speed, grid.cell)
+    else:
         return None
-    whence = ", by the time of arrival at the neighbours that it came from" if maps.speed is None else ""
-    notes.append(f"heat per area is fireline intensity over rate of spread{whence}")
-    return heat_from_intensity.of_intensity(maps.arrival, maps.intensity, maps.speed, grid.cell)
+    most = constants.HEAT_OF_COMBUSTION * (fuels.HEAVIEST + canopy)
+    burned = np.isfinite(maps.arrival)
+    if above := int(np.sum(burned & (heats > most))):
+        notes.append(
+            f"{above:,} of {burned.sum():,} burned cells have more heat per area than the heaviest fuel "
+            f"model, {fuels.HEAVIEST:.3g} kg/m2, and canopy fuel have; it is limited to that"
+        )
+    return np.minimum(heats, most)
 
 
 def _compare(own: NDArray | None, load: NDArray, burned: NDArray, notes: list[str]) -> None:

@@ -23,6 +23,8 @@ _MOST = 20_000
 FRONT_HEAT = burning.CROWN_FIRE_FLUX * 120.0
 """J/m2, heat of an intense front during 120 s, the residence time of flames in timber."""
 _OUTLIER = 4.0  # times the median of the neighbourhood (chosen on fires with known fuel)
+_FILL = 8  # cells up to which a value is continued over cells without one
+_PLATEAU = 0.1  # share of burned cells without an earlier neighbour at which times are rounded (by trial)
 _NOISE = 0.25  # median difference of logarithms between neighbours (chosen on fires with known fuel)
 
 
@@ -104,35 +106,43 @@ def of_intensity(
     model's own `speed`, only if the heat is also above `FRONT_HEAT`.
 
     Speed and intensity vary together, so their ratio varies with the fuel alone. If neighbours differ by more
-    than `_NOISE`, and by less than half as much with smoothed arrival times, the times are noisy, and the
-    smoothed times count.
+    than `_NOISE`, and by less with smoothed arrival times, the times are noisy, and the smoothed times count.
     """
     intensity, arrival = np.asarray(intensity, np.float64), np.asarray(arrival, np.float64)
+    burned = np.isfinite(arrival)
     if speed is not None:
-        return _heat(arrival, intensity, speed, FRONT_HEAT)
-    fine = _heat(arrival, intensity, rate_of_spread.of_arrival(arrival, cell), 0.0)
-    if _scatter(fine) < _NOISE:
-        return fine
-    even = rate_of_spread.smoothed(rate_of_spread.without_late_cells(arrival))
-    even = _heat(arrival, intensity, rate_of_spread.of_arrival(even, cell), 0.0)
-    return even if _scatter(even) < 0.5 * _scatter(fine) else fine
+        return _without_outliers(_filled(_per_area(intensity, speed), burned), FRONT_HEAT)
+    fine, smooth = (
+        _per_area(intensity, of(arrival, cell))
+        for of in (rate_of_spread.of_arrival, rate_of_spread.of_noisy_arrival)
+    )
+    noisy = _scatter(fine) >= _NOISE or np.mean(np.isfinite(fine[burned])) < 1.0 - _PLATEAU
+    chosen = smooth if noisy and _scatter(smooth) < max(_scatter(fine), _NOISE) else fine
+    return _without_outliers(_filled(chosen, burned), 0.0)
 
 
-def _heat(
-    arrival: NDArray[np.float64], intensity: NDArray[np.float64], speed: NDArray, trusted: float
-) -> NDArray[np.float64]:
-    """Compute intensity over speed, J/m2, without gaps and outliers above `trusted` (J/m2)."""
+def _per_area(intensity: NDArray[np.float64], speed: NDArray) -> NDArray[np.float64]:
+    """Compute intensity over speed, J/m2; NaN where it is not a positive number."""
     with np.errstate(divide="ignore", invalid="ignore"):
         heat = intensity / speed
-    known = np.isfinite(heat) & (heat > 0)
-    middle = float(np.median(heat[known])) if known.any() else 0.0
-    return _without_outliers(np.where(known, heat, np.where(np.isfinite(arrival), middle, 0.0)), trusted)
+    return np.where((heat > 0.0) & np.isfinite(heat), heat, np.nan)
+
+
+def _filled(heat: NDArray[np.float64], burned: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Fill burned cells without a value (NaN) with the mean of the nearest ones with a value; 0 elsewhere."""
+    heat = np.where(burned, heat, np.nan)
+    middle = float(np.nanmedian(heat)) if np.isfinite(heat).any() else 0.0
+    for _ in range(_FILL):
+        gaps = burned & ~np.isfinite(heat)
+        if not gaps.any():
+            break
+        heat = np.where(gaps, rate_of_spread.mean_around(heat, 1), heat)
+    return np.where(burned, np.where(np.isfinite(heat), heat, middle), 0.0)
 
 
 def _scatter(heat: NDArray[np.float64]) -> float:
     """Return the median ratio of neighbours in a row, as the absolute difference of logarithms."""
-    burned = np.where(heat > 0.0, heat, np.nan)
-    steps = np.abs(np.diff(np.log(burned), axis=1))
+    steps = np.abs(np.diff(np.log(heat), axis=1))
     return float(np.median(steps[np.isfinite(steps)])) if np.isfinite(steps).any() else 0.0
 
 

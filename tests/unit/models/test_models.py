@@ -499,6 +499,24 @@ def test_heat_by_intensity_of_a_late_cell_is_that_of_its_neighbours():
     np.testing.assert_allclose(found, exact, rtol=1e-9)  # the sum was 15 % more
 
 
+@pytest.mark.parametrize("layer", ["flin", "hpua"])
+def test_fuel_by_heat_is_bounded_by_the_heaviest_fuel_model(tmp_path, converted, layer):
+    """A block of late cells, and heats per area beyond all fuels: both are limited, counted and named."""
+    arrival, _ = plane()
+    arrival[4:8, 8:12] += 20_000.0
+    case, heat = "0000001_0001200", np.full(arrival.shape, 2.0 * constants.HEAT_OF_COMBUSTION / 1e3)
+    heat[4:8, 8:12] *= 100.0
+    values = heat if layer == "hpua" else heat * 0.5
+    for name, each in (("time_of_arrival", arrival), (layer, values)):
+        made.tiff(
+            tmp_path / f"{name}_{case}.tif", np.where(np.isnan(arrival), -9999, each).astype(np.float32)
+        )
+    run = converted(sorted(tmp_path.glob("*.tif")), start="2020-07-01T20:00:00Z")
+    assert np.asarray(run.surface_fuel).max() == pytest.approx(fuels.HEAVIEST)
+    text = r"(\d+) of 400 burned cells have more heat per area than the heaviest fuel model, 13 kg/m2"
+    assert 16 <= int(re.search(text, said(run))[1]) <= 20  # and slow cells next to the block
+
+
 def test_a_run_that_releases_more_than_its_fuel_is_warned_of(make_run):
     path = make_run()
     found = info.gather(runs.open(path), "UTC")

@@ -9,11 +9,11 @@ from firetwin_core import constants
 CELL, CELLS, SPEED = 30.0, 64, 0.3
 
 
-def fire(uneven: float, seed: int = 1):
+def fire(uneven: float, seed: int = 1, spots: int = 0):
     """Arrival (NaN: unburned) and speed (m/s) of a fire whose speed varies from cell to cell."""
     chance = np.random.default_rng(seed)
     speed = SPEED * np.exp(uneven * chance.standard_normal((CELLS, CELLS)))
-    came = upwind_front.arrival(1.0 / speed, CELL)
+    came = upwind_front.arrival(1.0 / speed, CELL, spots, seed)
     return np.where(came <= np.quantile(came, 0.6), came, np.nan), speed
 
 
@@ -48,13 +48,36 @@ def test_smoothing_keeps_a_straight_front():
     ("uneven", "time_noise"), [(0.0, 0.0), (0.25, 0.0), (0.7, 0.0), (0.1, 0.1), (0.1, 0.3), (0.1, 1.0)]
 )
 def test_heat_by_intensity_is_the_heat_of_the_fuel(heavy, uneven, time_noise):
-    """It was 13 % less for mild noise of the speed, and 25 % less to 26 % more for noise of the times."""
     came, speed = fire(uneven)
     row, column = np.indices(came.shape) // 10
     fuel = np.where((row + column) % 2, 0.8, heavy) * constants.HEAT_OF_COMBUSTION
     burned = np.isfinite(came)
     found = heat_from_intensity.of_intensity(noisy(came, time_noise), fuel * speed, None, (CELL, CELL))
     assert found[burned].sum() == pytest.approx(fuel[burned].sum(), rel=0.02)
+
+
+@pytest.mark.parametrize("time_noise", [0.1, 0.3, 1.0])
+def test_heat_by_intensity_of_spot_fires_that_merge(time_noise):
+    """Total heat of four fires is H times the sum of fuel; each has a spot fire per 350 burned cells."""
+    heat = np.zeros(2)
+    for seed in range(1, 5):
+        came, speed = fire(0.1, seed, spots=7)
+        row, column = np.indices(came.shape) // 10
+        fuel = np.where((row + column) % 2, 0.8, 4.0) * constants.HEAT_OF_COMBUSTION
+        burned, arrival = np.isfinite(came), noisy(came, time_noise, seed + 9)
+        found = heat_from_intensity.of_intensity(arrival, fuel * speed, None, (CELL, CELL))
+        heat += found[burned].sum(), fuel[burned].sum()
+        assert heat[0] == pytest.approx(heat[1], rel=0.05)
+    assert heat[0] == pytest.approx(heat[1], rel=0.03)
+
+
+def test_rounded_times_release_the_heat_of_their_fuel():
+    """A front crosses a cell in 100 s, and its times are rounded to minutes."""
+    came, speed = fire(0.1, spots=7)
+    fuel = np.full(came.shape, 2.5 * constants.HEAT_OF_COMBUSTION)
+    found = heat_from_intensity.of_intensity(60.0 * np.round(came / 60.0), fuel * speed, None, (CELL, CELL))
+    burned = np.isfinite(came)
+    assert found[burned].sum() == pytest.approx(fuel[burned].sum(), rel=0.03)
 
 
 @pytest.mark.parametrize("share", [0.02, 0.05])
