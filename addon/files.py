@@ -1,13 +1,15 @@
-"""Atomic file writes: a file gets its name after all of its content is on the disk."""
+"""Atomic file writes: a file gets its name after all of its content is on the disk. Reads of limited size."""
 
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import shutil
 import uuid
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 from . import limits
 from .errors import input_error, refuse_odd, writing
@@ -99,8 +101,32 @@ def write_text(path: Path, text: str, newline: str | None = None) -> None:
     write(path, lambda part: part.write_text(text, encoding="utf-8", newline=newline))
 
 
-def check_text_size(path: Path) -> None:
-    """Check that a text file of a user is within `limits.TEXT_BYTES` and `limits.TEXT_VALUES`.
+def read_text(
+    path: Path, encoding: str = "utf-8", errors: str = "strict", most: int = limits.TEXT_BYTES
+) -> str:
+    """Read a text of at most `most` bytes.
+
+    Raises
+    ------
+    OSError, ValueError
+        It is missing or in another encoding.
+    InputError
+        It is a pipe or a device, or larger.
+    """
+    check_size(path, most)
+    return path.read_text(encoding=encoding, errors=errors)
+
+
+def read_json(path: Path) -> Any:
+    """Read a JSON file (see `read_text`); it is also a ValueError if it is not JSON or nested too deeply."""
+    try:
+        return json.loads(read_text(path))
+    except RecursionError:
+        raise ValueError("its parts are nested too deeply") from None
+
+
+def check_size(path: Path, most: int = limits.TEXT_BYTES) -> None:
+    """Check that a file is a regular one of at most `most` bytes.
 
     Raises
     ------
@@ -109,10 +135,21 @@ def check_text_size(path: Path) -> None:
     """
     refuse_odd(path)
     size = path.stat().st_size
-    if size > limits.TEXT_BYTES:
-        most = f"at most {limits.TEXT_BYTES / 1e6:,.0f} MB are read"
-        raise input_error(path, f"has {size / 1e6:,.0f} MB; {most}: take a part of it")
-    if size > limits.TEXT_VALUES:
+    if size > most:
+        reason = f"has {size / 1e6:,.0f} MB; at most {most / 1e6:,.0f} MB are read: take a part of it"
+        raise input_error(path, reason)
+
+
+def check_text_size(path: Path) -> None:
+    """Check that a text file of a user is within `limits.TEXT_BYTES` and `limits.TEXT_VALUES`.
+
+    Raises
+    ------
+    InputError
+        It is not.
+    """
+    check_size(path, limits.TEXT_BYTES)
+    if path.stat().st_size > limits.TEXT_VALUES:
         with path.open("rb") as file:
             check_values(path, iter(lambda: file.read(_BLOCK), b""))
 

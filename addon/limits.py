@@ -65,9 +65,11 @@ LIMITS.append(Limit(_X, "years of the times of a run", f"{RUN_YEARS[0]} to {RUN_
 TEXT_BYTES = _number(_X, "size of GeoJSON, KML, GPX and CSV, also within a KMZ", 1 << 28, "refused", "bytes")
 
 TEXT_VALUES = _number(_X, "numbers, lists and tags in such a file", 20_000_000, "refused")
+SETTINGS_BYTES = _number(_X, "size of scene files, plans and other settings", 16 << 20, "refused", "bytes")
 UNPACKED_BYTES = _number(
     _X, "size of arrays in a NumPy file or raster, decompressed", 2 << 30, "refused", "bytes"
 )
+SAMPLE_PIXELS = _number(_X, "pixels of a picture of a data set", 100_000_000, "refused")
 CAMERA_FRAMES = _number(_X, "frames of a camera of a USD stage or Alembic file", 100_000, "refused")
 CAMERA_SECONDS = _number(_X, "time of a USD stage or Alembic file without progress", 120, "refused", "s")
 CAMERA_MEMORY = _number(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import files
 from ..ellipsoid import ecef, enu_axes
 from ..errors import input_error, reading
 from ..shot.shot import Shot
@@ -17,7 +17,6 @@ Array = NDArray[np.float64]
 Origin = tuple[float, float, float]
 
 SIDECAR = "georeference.json"
-_LARGEST = 1_000_000  # bytes of a sidecar
 
 
 def earth_matrix(latitude: float, longitude: float, height: float) -> Array:
@@ -47,10 +46,8 @@ def read_sidecar(path: Path) -> tuple[Origin, float | None] | None:
     if not beside.is_file():
         return None
     with reading(beside):
-        if beside.stat().st_size > _LARGEST:
-            raise input_error(beside, "is too large for a georeference; move it away")
         try:
-            found = json.loads(beside.read_text("utf-8"))
+            found = files.read_json(beside)
             keys = "latitude", "longitude", "ellipsoidal_height_m"
             latitude, longitude, height = (float(found[key]) for key in keys)
             undulation = found.get("geoid_m")

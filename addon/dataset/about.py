@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from .. import output
-from ..errors import input_error, reading
+from ..errors import input_error
+from ..files import read_json
 
 NAME = "dataset.json"
 
@@ -59,11 +60,9 @@ def read(folder: Path) -> About:
     path = folder / NAME
     if not path.is_file():
         return About()
-    with reading(path):
-        text = path.read_text(encoding="utf-8")
     try:
-        content: dict[str, Any] = json.loads(text)
+        content: dict[str, Any] = read_json(path)
         known = {each.name: content[each.name] for each in fields(About) if each.name in content}
-    except (ValueError, TypeError):
+    except (OSError, ValueError, TypeError):
         raise input_error(path, "is damaged; delete it and resume the data set") from None
     return About(**known)

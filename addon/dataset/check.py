@@ -107,6 +107,8 @@ def _pictures(folder: Path, sample: Truth) -> tuple[list[Finding], twins.Fingerp
         return [], None  # reported with the files
     try:
         grey = twins.grey(folder / path)
+    except InputError as error:
+        return [Finding("files", f"{path}: {error.reason}")], None
     except (OSError, SyntaxError, ValueError):
         meta = truth.path(folder, sample.index).relative_to(folder)
         remedy = RESUME.format(path=meta, folder=folder)

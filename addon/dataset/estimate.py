@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..files import read_json
 from ..progress import count, duration, size
 
 _VISIT_SECONDS, _SAMPLE_SECONDS = 14.0, 20.0
@@ -89,7 +89,7 @@ def estimate(
 
 def _seconds(cost: Path) -> float:
     """Read the processor seconds of a finished sample, with its share of its scene."""
-    parts = json.loads(cost.read_text(encoding="utf-8"))["processor_seconds"]
+    parts = read_json(cost)["processor_seconds"]
     return float(sum(parts.values()))
 
 

@@ -6,6 +6,8 @@ import tomllib
 from collections.abc import Iterable
 from pathlib import Path
 
+from ..errors import InputError
+from ..files import read_text
 from ..progress import say
 from . import truth
 from .command import FORMATS
@@ -16,8 +18,8 @@ FOLDER, UNIT, KIND = "dataset", "sample", "labels"
 def sniff(path: Path) -> bool:
     """Return whether a file is the plan of a data set: its runs have places."""
     try:
-        runs = tomllib.loads(path.read_text(encoding="utf-8-sig")).get("runs")
-    except (OSError, ValueError):
+        runs = tomllib.loads(read_text(path, "utf-8-sig")).get("runs")
+    except (OSError, ValueError, RecursionError, InputError):
         return False
     return isinstance(runs, list) and any(isinstance(run, dict) and "place" in run for run in runs)
 

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import files
-from ..errors import input_error, reading
+from ..errors import InputError, input_error, reading, refuse_odd
+from ..limits import SAMPLE_PIXELS
 from ..passes import masks as classes
 from . import truth
 from .rendered import Rendered
@@ -55,9 +57,6 @@ CONTENT = {
     truth.FOLDER: "labels, camera, all draws and sources, JSON",
 }
 """Content of each folder."""
-
-MOST = 255
-"""Maximum number of annotations of a picture, as ids have 8 bits in masks."""
 
 _FULL = 65535  # alpha of opaque smoke
 _NO_DATA, _DESCRIPTION, _PREDICTOR = 42113, 270, 317  # tags of TIFF: GDAL_NODATA; baseline; of floats: 3
@@ -232,13 +231,40 @@ def _save_floats(part: Path, values: NDArray, description: str, no_data: str = "
 
 
 def _read(path: Path) -> NDArray:
-    from PIL import Image, UnidentifiedImageError
-
     remedy = "is damaged; delete the metadata of the sample and resume the data set"
     with reading(path):
         path.stat()
     try:
-        with warnings.catch_warnings(action="ignore"), Image.open(path) as image:  # of damaged files
+        with open_picture(path) as image:
             return np.array(image)
-    except (OSError, ValueError, SyntaxError, UnidentifiedImageError):
+    except (OSError, ValueError, SyntaxError):
         raise input_error(path, remedy) from None
+
+
+@contextmanager
+def open_picture(path: Path) -> Iterator[Image]:
+    """Open a picture of a data set; its pixels are read later.
+
+    Raises
+    ------
+    OSError, ValueError, SyntaxError
+        It is damaged.
+    InputError
+        It is a pipe or a device, or has more than `limits.SAMPLE_PIXELS` pixels.
+    """
+    from PIL import Image
+
+    refuse_odd(path)
+    with warnings.catch_warnings(action="ignore"):  # of damaged files
+        try:
+            opened = Image.open(path)
+        except Image.DecompressionBombError:
+            raise _too_many(path) from None
+        with opened:
+            if opened.width * opened.height > SAMPLE_PIXELS:
+                raise _too_many(path)
+            yield opened
+
+
+def _too_many(path: Path) -> InputError:
+    return input_error(path, f"has more than {SAMPLE_PIXELS:,} pixels; no sample has as many: remove it")

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ..passes import masks as classes
 from ..shot.cameras import path
 from . import components, survey, truth
-from .files import MOST, Masks
+from .files import Masks
 from .rendered import Rendered
 from .survey import Place
 from .truth import Annotation, Box, CameraPose, Polyline, Truth
@@ -89,7 +89,7 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
         *_instances(truth.FIRE, amodal, visible, rendered.camera.width),
         *_instances(truth.SMOKE, seen, seen, rendered.camera.width),
     ]
-    large = [each for each in found if each.pixels >= MIN_PIXELS][:MOST]
+    large = [each for each in found if each.pixels >= MIN_PIXELS][: truth.MOST]
     small = [each for each in found if not any(each is other for other in large)]
     annotations = [
         _annotation(number, each, rendered, place, contrast) for number, each in enumerate(large + small, 1)

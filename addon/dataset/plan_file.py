@@ -12,6 +12,8 @@ from typing import Any
 
 from ..did_you_mean import suggestion
 from ..errors import input_error, reading
+from ..files import read_text
+from ..limits import SETTINGS_BYTES
 from ..shot.schema import either, key, validate
 from ..shot.schema.bounds import file_name, twice
 from ..shot.settings.scene_file import TableReader
@@ -53,7 +55,7 @@ def read(path: str | Path) -> Plan:
     if not path.is_file():
         raise input_error(path, f"there is no such plan; {_EXAMPLE}")
     with reading(path):
-        return parse(path.read_text(encoding="utf-8-sig"), path)
+        return parse(read_text(path, "utf-8-sig", most=SETTINGS_BYTES), path)
 
 
 def parse(text: str, path: Path) -> Plan:

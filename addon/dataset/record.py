@@ -9,6 +9,7 @@ from typing import Any
 
 from .. import output
 from ..errors import input_error, reading
+from ..files import read_json
 from ..render import fingerprint
 from ..run import content
 from .plan import Plan
@@ -76,7 +77,10 @@ def read(out: Path) -> dict[str, Any]:
     if not path.is_file():
         raise input_error(path, "the folder has no data set; make one with: firetwin dataset PLAN --out DIR")
     with reading(path):
-        return json.loads(path.read_text(encoding="utf-8"))
+        record = read_json(path)
+    if not isinstance(record, dict):
+        raise input_error(path, "is not the record of a data set; choose another folder for --out")
+    return record
 
 
 def _changes(former: dict[str, Any], record: dict[str, Any]) -> list[str]:

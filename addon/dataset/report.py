@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from .. import output
 from ..html_text import data_uri, quote
 from ..progress import count
-from . import draw_labels, histogram, licences, table
+from . import draw_labels, files, histogram, licences, table
 from .about import About
 from .formats import common
 from .truth import Annotation, Truth
@@ -116,9 +116,7 @@ def _sheet(folder: Path, samples: Sequence[Truth]) -> Iterator[str]:
 
 def thumbnail(folder: Path, truth: Truth) -> Image.Image:
     """Draw a small picture of a sample with its boxes."""
-    from PIL import Image
-
-    with Image.open(folder / common.picture(truth)) as opened:
+    with files.open_picture(folder / common.picture(truth)) as opened:
         return draw_labels.draw_small(opened, truth, _THUMBNAIL)
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from .. import output
 from ..errors import reading
+from ..files import read_text
 
 NAME = "SHA256SUMS"
 
@@ -51,7 +52,7 @@ def write(folder: Path, overwrite: bool = False) -> dict[str, str]:
 def read(folder: Path) -> dict[str, str]:
     """Read the hash of each file by its path; lines that are not hashes are left out."""
     with reading(folder / NAME):
-        lines = (folder / NAME).read_text(encoding="utf-8").splitlines()
+        lines = read_text(folder / NAME).splitlines()
     pairs = (line.split("  ", 1) for line in lines)
     return {pair[1]: pair[0] for pair in pairs if len(pair) == 2 and len(pair[0]) == 64}
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import files
-from ..errors import input_error, reading
+from ..errors import input_error, read_fault
 from ..output import is_plain_name
 from ..passes import masks
 
@@ -225,6 +225,10 @@ class Truth:
         return not self.annotations and not self.below_size
 
 
+MOST = 255
+"""Maximum number of annotations of a picture, as ids have 8 bits in masks."""
+
+
 def stem(index: int) -> str:
     """Return the file name of a sample without extension: ``000137``."""
     return f"{index:06d}"
@@ -259,13 +263,13 @@ def read(folder: Path, index: int) -> Truth:
         The file is missing, damaged or of another version.
     """
     file = path(folder, index)
-    with reading(file):
-        text = file.read_text(encoding="utf-8")
     try:
-        content = json.loads(text)
+        content = files.read_json(file)
         if content.pop("format") != FORMAT:
             raise input_error(file, f'is not "{FORMAT}"; write the data set again with this version')
         return from_json(content)
+    except OSError as error:
+        raise input_error(file, read_fault(error)) from None
     except (ValueError, TypeError, KeyError, AttributeError):
         raise input_error(file, "is damaged; delete it and resume the data set") from None
 
@@ -273,7 +277,7 @@ def read(folder: Path, index: int) -> Truth:
 def indices(folder: Path) -> Iterator[int]:
     """Yield the numbers of the samples of a data set, ascending."""
     for file in sorted((folder / FOLDER).glob("[0-9]*.json")):
-        if file.stem.isdigit():
+        if file.stem.isdecimal():
             yield int(file.stem)
 
 
@@ -286,6 +290,8 @@ def from_json(content: Mapping[str, Any]) -> Truth:
         A path leads out of the data set.
     """
     values = _known(Truth, content)
+    if len(content.get("annotations", ())) > MOST:
+        raise ValueError(f"more than {MOST} annotations")
     for name in ("annotations", "below_size"):
         values[name] = tuple(_annotation(each) for each in content.get(name, ()))
     for name in ("front", "horizon"):

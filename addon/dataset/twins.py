@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from . import files
+
 SIDE = 16  # rows of the small picture, which has one more column
 MOST_BITS = 12  # of 256 that differ between near copies (by eye)
 MOST_DIFFERENCE = 4.0  # mean difference of grey values 0..255 between near copies (by eye)
@@ -46,7 +48,7 @@ def grey(path: Path) -> NDArray[np.float32]:
     """
     from PIL import Image
 
-    with Image.open(path) as opened:
+    with files.open_picture(path) as opened:
         small = opened.convert("L").resize((SIDE + 1, SIDE), Image.Resampling.BOX)
     return np.asarray(small, np.float32)
 

@@ -260,7 +260,7 @@ def read(out: Path) -> Job:
     """
     path = job_dir(out) / FILE
     try:
-        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        found: dict[str, Any] = files.read_json(path)
         if found.pop("format") != _FORMAT:
             raise ValueError
         tasks = (Task(each["stage"], tuple(each["cameras"]), each["frames"]) for each in found["tasks"])

@@ -88,7 +88,7 @@ def _key(card: Card, blender: str) -> str:
 
 def _read(place: Path) -> list[str]:
     try:
-        found = json.loads((place / _RECORD).read_text(encoding="utf-8"))
+        found = files.read_json(place / _RECORD)
     except (OSError, ValueError):
         return []
     return found if isinstance(found, list) else []

@@ -11,6 +11,7 @@ from typing import Any
 
 from .. import output
 from ..errors import Error, input_error, refuse_odd
+from ..files import read_json
 
 TIMES, STATUS, PAGE = "times.json", "status.json", "index.html"
 FINAL = ("ended", "failed")
@@ -112,7 +113,7 @@ def times(folder: Path) -> list[Accepted]:
     path = folder / TIMES
     refuse_odd(path)
     try:
-        return [_accepted(each) for each in json.loads(path.read_text(encoding="utf-8"))]
+        return [_accepted(each) for each in read_json(path)]
     except FileNotFoundError:
         return []
     except (OSError, ValueError, TypeError, OverflowError, RecursionError) as error:
@@ -181,7 +182,7 @@ def status(folder: Path) -> dict[str, Any]:
     """Read ``status.json``; empty if there is none."""
     try:
         refuse_odd(folder / STATUS)
-        found = json.loads((folder / STATUS).read_text(encoding="utf-8"))
+        found = read_json(folder / STATUS)
     except (OSError, ValueError, RecursionError, Error):
         return {}
     return found if isinstance(found, dict) else {}

@@ -69,7 +69,7 @@ def _write_text(text: str, part: Path) -> None:
 def _frame(folder: Path, shown: str, passes: dict[str, list[str]]) -> dict[str, Any] | None:
     """Make the index entry of one frame; None if its projection is parallel or its sidecar is missing."""
     try:
-        sidecar = json.loads((folder / passes["pose"][0]).read_text(encoding="utf-8"))
+        sidecar = files.read_json(folder / passes["pose"][0])
     except (OSError, ValueError):
         return None
     lens, words = sidecar["intrinsics"], [*sidecar.get("services", []), *sidecar.get("credits", [])]

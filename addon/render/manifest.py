@@ -31,7 +31,7 @@ def read(out: Path) -> dict[str, Any]:
     path = out / NAME
     refuse_odd(path)
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = files.read_json(path)
     except (FileNotFoundError, NotADirectoryError):
         return {"format": _FORMAT, "settings": {}, "files": {}}
     except (OSError, ValueError) as error:

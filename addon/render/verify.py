@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import struct
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import numpy as np
 from firetwin_core import sensor
 
 from ..errors import Error, full_disk_error, input_error, is_nearly_full
+from ..files import read_json
 
 _PNG_END = b"\0\0\0\0IEND\xaeB`\x82"
 
@@ -38,7 +38,7 @@ def picture(path: Path, size: tuple[int, int]) -> None:
 
 def _text(path: Path) -> None:
     try:
-        json.loads(path.read_text(encoding="utf-8"))
+        read_json(path)
     except (OSError, ValueError) as error:
         raise _damage_error(path, f"is not JSON: {error}") from None
 

@@ -19,6 +19,7 @@ from typing import Any
 from firetwin_core.run import Run
 
 from ..errors import reading
+from ..files import read_json
 from ..progress import Progress, silent
 
 REMEMBERED = ".firetwin-hashes.json"
@@ -77,7 +78,7 @@ def inputs(
 def identity(folder: Path) -> str:
     """Return the identity of a run folder, in place of hashes; "" for nearly all runs."""
     try:
-        return str(json.loads((folder / IDENTITY).read_text(encoding="utf-8")))
+        return str(read_json(folder / IDENTITY))
     except (OSError, ValueError):
         return ""
 
@@ -156,7 +157,7 @@ def _load(folder: Path, places: Iterable[Path]) -> None:
     """Load cached hashes; damaged cache files are ignored."""
     for place in places:
         with contextlib.suppress(OSError, ValueError, TypeError, AttributeError):
-            for name, (digest, *found) in json.loads(place.read_text(encoding="utf-8")).items():
+            for name, (digest, *found) in read_json(place).items():
                 _read.setdefault((folder / name, tuple(found)), str(digest))
 
 

@@ -28,7 +28,7 @@ def facts(run: Run, about: str, find: Callable[[], dict[str, Any]]) -> dict[str,
     stamps = content.stamps(run)
     key = content.fingerprint({"about": about, "run": stamps, "program": _program()})
     with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
-        known = json.loads(place.read_text(encoding="utf-8"))
+        known = files.read_json(place)
         if known["key"] == key:
             return dict(known["facts"])
     result = find()

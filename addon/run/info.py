@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..data import history
 from ..errors import input_error
 from ..escaped import escaped
+from ..files import read_text
 from . import (
     areas,
     blocks,
@@ -49,7 +50,7 @@ def source(folder: Path) -> dict[str, Any]:
     """
     path = folder / "run.toml"
     try:
-        entries = tomllib.loads(path.read_text(encoding="utf-8-sig")).get("source", {})
+        entries = tomllib.loads(read_text(path, "utf-8-sig")).get("source", {})
     except (OSError, ValueError, RecursionError):  # `description` reports these
         return {}
     for key, value in entries.items():

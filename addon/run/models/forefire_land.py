@@ -16,6 +16,7 @@ from firetwin_core import terrain
 from numpy.typing import NDArray
 
 from ...errors import input_error
+from ...files import read_text
 from . import from_arrival_time, given_wind, land_cover, netcdf
 from .given_wind import Wind
 
@@ -157,7 +158,7 @@ def _is_table(path: Path) -> bool:
 
 
 def _loads(path: Path) -> dict[int, float]:
-    rows = csv.DictReader(path.read_text(encoding="utf-8", errors="replace").splitlines(), delimiter=";")
+    rows = csv.DictReader(read_text(path, errors="replace").splitlines(), delimiter=";")
     try:
         return {int(row["Index"]): float(row["Sigmad"]) for row in rows}
     except (KeyError, ValueError, TypeError):

@@ -189,7 +189,7 @@ def _journal(part: Path, inputs: str, done: int, open_files: dict[str, BinaryIO]
 def _done(part: Path, inputs: str) -> int:
     """Count the times already written from the same inputs; data from other inputs is removed."""
     try:
-        journal = json.loads((part / JOURNAL).read_text(encoding="utf-8"))
+        journal = files.read_json(part / JOURNAL)
         if journal["inputs"] == inputs:
             return int(journal["times"])
     except (OSError, ValueError, KeyError, TypeError):

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error
+from ...files import read_text
 from ..models import companion_rasters, forefire_land, from_arrival_time, netcdf, one_run
 from ..models.grid import Grid
 from ..models.model import Model, Options
@@ -88,7 +89,7 @@ def _fronts(paths: list[Path], notes: list[str]) -> list[tuple[datetime | None, 
     for path in paths:
         if path.suffix.lower() not in (".geojson", ".json", ".kml"):
             continue
-        text = path.read_text(encoding="utf-8", errors="replace")
+        text = read_text(path, errors="replace")
         moment = None
         if path.suffix.lower() == ".kml":
             places = [tuple(map(float, each)) for each in re.findall(r"(-?[\d.]+),(-?[\d.]+),-?[\d.]+", text)]

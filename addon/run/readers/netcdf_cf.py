@@ -17,6 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error, reading
+from ...files import read_text
+from ...limits import SETTINGS_BYTES
 from ...toml_text import loads
 from ..models import companion_rasters, from_arrival_time, masks, netcdf, optional_packages, zarr_store
 from ..models.grid import Grid
@@ -145,7 +147,7 @@ def _mapping(path: Path | None) -> tuple[dict[str, dict[str, Any]], dict[str, st
     if path is None:
         return {}, {}
     with reading(path):
-        data = loads(path, path.read_text(encoding="utf-8-sig"))
+        data = loads(path, read_text(path, "utf-8-sig", most=SETTINGS_BYTES))
     known = (*_MOVING, *_LEVELS, *_STILL)
     fields = {}
     for name, entry in data.get("fields", {}).items():

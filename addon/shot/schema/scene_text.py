@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...errors import InputError, input_error, reading
+from ...files import read_text
+from ...limits import SETTINGS_BYTES
 from ...toml_text import Where, places
 from .former import current
 
@@ -49,7 +51,7 @@ def load(path: Path) -> str:
         raise input_error(path, _folder(path))
     with reading(path):
         try:
-            return path.read_text(encoding="utf-8-sig")
+            return read_text(path, "utf-8-sig", most=SETTINGS_BYTES)
         except FileNotFoundError:
             raise input_error(path, "no such scene file; examples/king_fire.toml shows every key") from None
 

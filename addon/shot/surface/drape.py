@@ -128,7 +128,7 @@ def read(path: Path) -> Drape:
         The file is damaged.
     """
     try:
-        about: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        about: dict[str, Any] = files.read_json(path)
         areas = [_area(**each) for each in about["areas"]]
         lists = {name: tuple(map(str, about[name])) for name in ("credits", "missing")}
         return Drape(path.parent, tuple(areas), **lists)

@@ -19,6 +19,8 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...errors import InputError, input_error, reading
+from ...files import read_text
+from ...limits import SETTINGS_BYTES
 from ...progress import Progress, silent
 from ...run import areas, content
 from ..schema import scene_text
@@ -230,7 +232,7 @@ class _Plain(PhotoSource):
                 "terrain.photo_extent = [west, south, east, north] in degrees"
             )
         with reading(world):
-            words = world.read_text(encoding="utf-8").split()
+            words = read_text(world, most=SETTINGS_BYTES).split()
         try:
             a, d, b, e, c, f = map(float, words)
         except ValueError:

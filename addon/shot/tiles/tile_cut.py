@@ -92,7 +92,7 @@ def read(path: Path) -> TileCut:
         The file is damaged.
     """
     try:
-        about: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        about: dict[str, Any] = files.read_json(path)
         tiles, credits, missing, logo = (
             tuple(map(str, about[name])) for name in ("tiles", "credits", "missing", "logo")
         )

@@ -199,6 +199,6 @@ def refuse_others(out: Path) -> None:
 
 def _is_own_tileset(path: Path) -> bool:
     try:
-        return json.loads(path.read_text(encoding="utf-8"))["asset"]["generator"] == _GENERATOR
+        return files.read_json(path)["asset"]["generator"] == _GENERATOR
     except (OSError, ValueError, LookupError, TypeError):
         return False

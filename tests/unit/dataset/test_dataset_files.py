@@ -1,6 +1,8 @@
 """Files of samples: each map comes back, metadata come last, and equal samples are equal bytes."""
 
 import json
+import struct
+import zlib
 from dataclasses import replace
 
 import numpy as np
@@ -141,3 +143,27 @@ def test_a_damaged_map_has_a_remedy(tmp_path, sample):
             files.read(tmp_path, kind, 5)
     with pytest.raises(InputError):
         files.read(tmp_path, "alpha", 9)
+
+
+@pytest.mark.parametrize("side", [12_000, 20_000])
+def test_a_picture_without_limits_is_refused(tmp_path, side):
+    parts = (b"IHDR", struct.pack(">2I5B", side, side, 8, 2, 0, 0, 0)), (b"IDAT", b"")
+    chunks = [
+        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+        for kind, body in parts
+    ]
+    (tmp_path / "masks").mkdir()
+    (tmp_path / "masks/000005.png").write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(chunks))
+    with pytest.raises(InputError, match=r"000005\.png: has more than 100,000,000 pixels; .*: remove it"):
+        files.read(tmp_path, "masks", 5)
+
+
+def test_annotations_of_a_picture_are_limited(folder, tmp_path):
+    box = 0.0, 0.0, 1.0, 1.0
+    one = (Annotation(1, truth.FIRE, box, 1, box, 1, 1.0, False, "visible"),)
+    label = truth.read(folder, 5)
+    truth.write(tmp_path, replace(label, annotations=one * truth.MOST))
+    assert len(truth.read(tmp_path, 5).annotations) == 255
+    truth.write(tmp_path, replace(label, annotations=one * (truth.MOST + 1)))
+    with pytest.raises(InputError, match="is damaged; delete it"):
+        truth.read(tmp_path, 5)

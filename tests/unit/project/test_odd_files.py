@@ -1,16 +1,26 @@
-"""Readers of a user's files refuse pipes, devices and links to them in one line, and do not wait for them."""
+"""Readers of a user's files refuse pipes, devices and links to them in one line, and do not wait for them.
 
+``python tests/unit/project/test_odd_files.py`` prints a table of readers and files: seconds, memory, message.
+"""
+
+import itertools
 import os
 import resource
 import shutil
 import signal
 import sys
+import tempfile
+import time
 from pathlib import Path
 
 import pytest
+
+sys.path.append(str(Path(__file__).parents[2] / "helpers"))
 from file_readers import READERS, write_files
+from firetwin import memory
 from firetwin.dataset import finish, truth
 from firetwin.errors import Error
+from firetwin.escaped import escaped
 from firetwin.growing import model_log, watched
 from firetwin.render import manifest
 from firetwin.run.models import grib2
@@ -62,6 +72,22 @@ ODD = {
 }
 
 
+def extend(path):
+    """Make a file a sparse one of 10 GB."""
+    with path.open("ab") as file:
+        file.truncate(10 << 30)
+
+
+LARGE = {
+    "10 GB": extend,
+    "nested JSON": lambda path: path.write_text("[" * 100_000),
+    "nested TOML": lambda path: path.write_text("a = " + "[" * 100_000),
+    "damaged": lambda path: path.write_bytes(b"\0\xff" * 1000),
+}
+HASHED = {("hashed file", "10 GB")}
+"""A file that is only hashed is read completely, in pieces."""
+
+
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
     return write_files(tmp_path_factory.mktemp("files")).parent
@@ -92,12 +118,62 @@ def test_every_reader_has_its_file():
 @pytest.mark.parametrize("kind", ODD)
 @pytest.mark.parametrize("reader", [*FILES, *MORE])
 def test_odd_files_are_refused_in_one_line(reader, kind, files, tmp_path):
+    work = prepare(reader, kind, files, tmp_path)
+    assert in_child(work) == (1 if reader in SILENT else 0)
+
+
+@pytest.mark.parametrize("kind", LARGE)
+@pytest.mark.parametrize("reader", [*FILES, *MORE])
+def test_large_and_damaged_files_are_read_or_refused_in_one_line(reader, kind, files, tmp_path):
+    if (reader, kind) not in HASHED:
+        assert in_child(prepare(reader, kind, files, tmp_path)) in (0, 1)
+
+
+def prepare(reader, kind, files, tmp_path):
+    """Return the call of a reader on a file of a kind."""
     folder = tmp_path / "files"
     shutil.copytree(files, folder)
     name, read = MORE[reader] if reader in MORE else (FILES[reader], READERS[reader][0])
     path = folder / name
     path.parent.mkdir(exist_ok=True)
-    path.unlink(missing_ok=True)
-    ODD[kind](path)
+    if kind in ODD:
+        path.unlink(missing_ok=True)
+    (ODD | LARGE)[kind](path)
     given = path if reader in MORE else folder / "a_stations.gpkg"
-    assert in_child(lambda: read(given)) == (1 if reader in SILENT else 0)
+    return lambda: read(given)
+
+
+def measure(work):
+    """Run a reader in a child; return seconds, peak memory in MB, and the message."""
+    reading, writing = os.pipe()
+    start = time.perf_counter()
+    child = os.fork()
+    if child == 0:
+        signal.alarm(10 * SECONDS)
+        message = "is read"
+        try:
+            work()
+        except Exception as error:
+            message = str(error) if isinstance(error, Error) else f"RAW {error!r}"
+        os.write(writing, f"{memory.peak() // 10**6}\n{message[:300]}".encode())
+        os._exit(0)
+    os.close(writing)
+    with os.fdopen(reading, encoding="utf-8") as pipe:
+        peak, _, message = pipe.read().partition("\n")
+    os.waitpid(child, 0)
+    return time.perf_counter() - start, peak or "?", message or "RAW ended without an answer"
+
+
+def print_table():
+    """Print a line for each reader and kind of file."""
+    with tempfile.TemporaryDirectory() as name:
+        files = write_files(Path(name)).parent
+        for reader, kind in itertools.product([*FILES, *MORE], ODD | LARGE):
+            with tempfile.TemporaryDirectory() as other:
+                seconds, peak, message = measure(prepare(reader, kind, files, Path(other)))
+                shown = escaped(message.replace(f"{other}/files/", "").replace("\n", " | "))
+            print(f"{reader:22} {kind:12} {seconds:6.1f} s {peak:>5} MB  {shown}", flush=True)
+
+
+if __name__ == "__main__":
+    print_table()

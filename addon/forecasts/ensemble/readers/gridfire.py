@@ -19,6 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import input_error, reading
+from ....files import check_size
+from ....limits import UNPACKED_BYTES
 from ....run.models.model import LONGEST, Options
 from .. import write
 from ..manifest import Member
@@ -87,6 +89,7 @@ def _arrival(path: Path, shape: tuple[int, int], simulation: _Simulation | None)
 def _burned(path: Path) -> burned_cells.Cells:
     """Read columns, rows and arrival times (n,) of a list."""
     with reading(path, "list of burned cells"):
+        check_size(path, UNPACKED_BYTES)
         data = path.read_bytes()
     count = int(np.frombuffer(data, ">i4", 1)[0]) if len(data) >= 4 else -1
     if count < 0 or len(data) < 4 + 12 * count:

@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import InputError, input_error, reading
-from ....files import check_text_size
+from ....files import check_size, check_text_size
+from ....limits import UNPACKED_BYTES
 from ....run.models import raster
 from ....run.models.grid import Grid
 from ....run.models.model import Options
@@ -102,6 +103,7 @@ def _lost(path: Path, shape: tuple[int, int]) -> NDArray[np.float32]:
     """Read the burned mass (ny, nx), per cent."""
     size = 4 * shape[0] * shape[1]
     with reading(path, "output of QUIC-Fire"):
+        check_size(path, UNPACKED_BYTES)
         data = path.read_bytes()
     if len(data) != size + 8 or data[:4] != np.array(size, "<i4").tobytes() or data[:4] != data[-4:]:
         raise input_error(path, f"holds {len(data):,} bytes, not a record of {shape[0]} x {shape[1]} cells")

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import Error, InputError, input_error
+from ....files import check_size
 from ....run.areas import metres_per_degree
 from ....run.models import optional_packages
 from ....run.models.grid import Grid
@@ -146,6 +147,7 @@ def _is_scenario(path: Path) -> bool:
     if path.suffix.lower() not in (".kml", ".kmz"):
         return False
     try:
+        check_size(path)
         text = kml.unpack_kmz(path) if path.suffix.lower() == ".kmz" else path.read_bytes()
     except (OSError, InputError):
         return False
