@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -177,10 +177,10 @@ class Drawer:
         return BEFORE, scene.ignition - value("time_before_ignition"), moments[moment]
 
 
-def count_rejects(draws: Mapping[int, Draw]) -> dict[str, int]:
+def count_rejects(draws: Iterable[Draw]) -> dict[str, int]:
     """Count the rejected tries by reason."""
     found: dict[str, int] = {}
-    for each in draws.values():
+    for each in draws:
         for reason in each.rejects:
             found[reason] = found.get(reason, 0) + 1
     return dict(sorted(found.items()))

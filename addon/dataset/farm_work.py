@@ -31,7 +31,8 @@ def split(plan: Path, out: Path) -> tuple[int, list[list[int]]]:
     production = verbs.prepare(plan, out / FOLDER)
     for line in (*production.estimate().lines(), *verbs.describe(production)):
         say(line)
-    return production.plan.count, [[each.index for each in visit.draws] for visit in production.visits]
+    visits = (visit for block in production.blocks for visit in production.visits(block))
+    return production.plan.count, [[each.index for each in visit.draws] for visit in visits]
 
 
 def make(plan: Path, out: Path, samples: str) -> None:

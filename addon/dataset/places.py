@@ -1,7 +1,8 @@
 """Visits of places: samples of one run and moment, which share a built scene and its solved smoke.
 
 The members of a visit depend on the plan alone, not on the samples that are rendered. A sample that is
-rendered alone builds the scene of its complete visit, so it is the same as in a batch. Needs no Blender.
+rendered alone builds the scene of its complete visit, so it is the same as in a batch. All members are of one
+block of consecutive samples, so the visits of a block need no draws of other blocks. Needs no Blender.
 """
 
 from __future__ import annotations
@@ -37,6 +38,19 @@ _SENSOR = 36.0  # mm
 _AIM = 1000.0  # m, distance of a camera's target, which only sets its name
 
 
+BLOCK = 1000
+"""Least number of samples of a block."""
+
+
+def blocks(plan: Plan) -> list[range]:
+    """Divide the samples of a plan into blocks, which do not depend on its number of samples.
+
+    A block is large enough for full visits of each run and moment.
+    """
+    size = max(BLOCK, MEMBERS * len(plan.runs) * (plan.moments + 2))
+    return [range(first, min(first + size, plan.count + 1)) for first in range(1, plan.count + 1, size)]
+
+
 @dataclass(frozen=True)
 class Visit:
     """A visit: draws of one run and moment, by their number."""
@@ -50,7 +64,7 @@ class Visit:
 
 
 def visits(draws: Iterable[Draw]) -> list[Visit]:
-    """Group the draws of a complete plan into visits, in the order of their first samples."""
+    """Group the draws of a block into visits, in the order of their first samples."""
     groups: dict[tuple[str, int], list[Draw]] = {}
     for each in sorted(draws, key=lambda drawn: drawn.index):
         groups.setdefault((each.run, each.moment), []).append(each)

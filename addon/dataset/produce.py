@@ -7,9 +7,9 @@ the visit that it renders. A killed process loses the samples that it had not fi
 from __future__ import annotations
 
 import contextlib
+import math
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from .. import leases, output
@@ -22,7 +22,6 @@ from ..shot.schema.frame_list import FrameList
 from . import about, files, imagery, places, record, truth
 from .about import About
 from .distributions import VALUES
-from .draw import Draw
 from .draws import Drawer
 from .estimate import Estimate, estimate
 from .places import Visit
@@ -32,6 +31,7 @@ from .splits import Splits
 
 WORK = ".work"
 """Folder of leases and of hashes of runs in a data set; it is not a part of the data set."""
+_KEPT = 4  # blocks of draws in memory
 _POLL_INTERVAL = 1.0  # s between two polls of the leases of other processes
 SAMPLES = "samples"
 """Name of the work that counts samples, for progress."""
@@ -40,43 +40,68 @@ Maker = Callable[[Plan, Visit, Sequence[int], Path, Progress, MessageCallback], 
 """Renders, labels and writes some samples of a visit into a folder."""
 
 
-@dataclass(frozen=True)
 class Production:
-    """A data set to make.
+    """A data set to make; each block of samples is drawn at first use.
 
     Attributes
     ----------
-    draws
-        All draws of the plan, by number.
     wanted
         Numbers of the requested samples.
+    blocks
+        Numbers of the samples of each block with requested samples.
     """
 
-    plan: Plan
-    out: Path
-    draws: dict[int, Draw]
-    wanted: frozenset[int]
-    visits: list[Visit] = field(default_factory=list)
+    def __init__(self, plan: Plan, out: Path, wanted: frozenset[int], progress: Progress = silent) -> None:
+        self.plan, self.out, self.wanted = plan, out, wanted
+        self.blocks = [block for block in places.blocks(plan) if not wanted.isdisjoint(block)]
+        self._drawer, self._progress = Drawer(plan), progress
+        self._finished: set[range] = set()
+        self._visits: dict[range, list[Visit]] = {}
+
+    def visits(self, block: range) -> list[Visit]:
+        """Draw the samples of a block, and group them; the last `_KEPT` blocks are kept in memory."""
+        if block not in self._visits:
+            draws = []
+            for done, index in enumerate(block):
+                self._progress(done, len(block), "drawing samples")
+                draws.append(self._drawer.draw(index))
+            self._progress(len(block), len(block), "drawing samples")
+            self._visits[block] = places.visits(draws)
+            while len(self._visits) > _KEPT:
+                del self._visits[next(iter(self._visits))]
+        return self._visits[block]
 
     def missing(self, visit: Visit) -> list[int]:
         """List the requested samples of a visit that are not finished."""
         numbers = [each.index for each in visit.draws if each.index in self.wanted]
         return [index for index in numbers if not files.is_complete(self.out, index)]
 
-    def unfinished(self) -> list[Visit]:
-        """List the visits with missing samples."""
-        return [visit for visit in self.visits if self.missing(visit)]
+    def unfinished(self) -> Iterator[range]:
+        """Yield the blocks with missing samples."""
+        for block in self.blocks:
+            if block not in self._finished:
+                wanted = (index for index in block if index in self.wanted)
+                if all(files.is_complete(self.out, index) for index in wanted):
+                    self._finished.add(block)
+                else:
+                    yield block
+
+    def left(self) -> frozenset[int]:
+        """Return the numbers of all missing samples."""
+        return self.wanted.difference(truth.indices(self.out))
 
     def estimate(self) -> Estimate:
-        """Estimate time and size of the missing samples."""
-        visits = self.unfinished()
-        missing = [index for visit in visits for index in self.missing(visit)]
-        costs = [path for each in self.draws if (path := cost_file(self.out, each)).is_file()]
-        return estimate(missing, len(visits), self.plan.resolution, self.out, costs)
+        """Estimate time and size of the missing samples, with as many scenes as in their first block."""
+        left, scenes = self.left(), 0
+        if (block := next(self.unfinished(), None)) is not None:
+            missing = list(filter(None, map(self.missing, self.visits(block))))
+            scenes = math.ceil(len(left) * len(missing) / sum(map(len, missing)))
+        costs = sorted(cost_file(self.out, 0).parent.glob("*.json"))
+        return estimate(left, scenes, self.plan.resolution, self.out, costs)
 
 
 def prepare(plan: Plan, out: Path, only: str = "", progress: Progress = silent) -> Production:
-    """Draw all samples of a plan.
+    """Draw the first block of requested samples of a plan.
 
     Parameters
     ----------
@@ -99,12 +124,9 @@ def prepare(plan: Plan, out: Path, only: str = "", progress: Progress = silent) 
     for number, run in enumerate(plan.runs):
         if reason := imagery.fault(run, settings_of(run)):
             raise scene_text.error_at(plan.path, ("runs", number, "run"), f"runs.run: {reason}")
-    drawer, draws = Drawer(plan), dict[int, Draw]()
-    for index in range(1, plan.count + 1):
-        progress(index - 1, plan.count, "drawing samples")
-        draws[index] = drawer.draw(index)
-    progress(plan.count, plan.count, "drawing samples")
-    return Production(plan, out, draws, frozenset(wanted), places.visits(draws.values()))
+    production = Production(plan, out, frozenset(wanted), progress)
+    production.visits(production.blocks[0])
+    return production
 
 
 def run(
@@ -136,12 +158,10 @@ def _produce(
     production: Production, held: Leases, make: Maker, progress: Progress, tell: MessageCallback
 ) -> None:
     total, waiting = len(production.wanted), False
-    if not production.unfinished():
+    if not production.left():
         progress(total, total, SAMPLES)
-    while unfinished := production.unfinished():
-        others = held.of_others()
-        free = (visit for visit in unfinished if _name(visit) not in others and held.take(_name(visit)))
-        visit = next(free, None)
+    while production.left():
+        visit = _take_visit(production, held)
         if visit is None:
             if not waiting:
                 limit = duration(leases.PATIENCE)
@@ -152,7 +172,7 @@ def _produce(
         waiting = False
         try:
             if missing := production.missing(visit):
-                left = sum(len(production.missing(each)) for each in production.unfinished())
+                left = len(production.left())
                 make(
                     production.plan,
                     visit,
@@ -165,6 +185,14 @@ def _produce(
                     raise RuntimeError(f"sample {still[0]} was not written")
         finally:
             held.release(_name(visit))
+
+
+def _take_visit(production: Production, held: Leases) -> Visit | None:
+    """Take the lease of the first visit with missing samples that no other process holds."""
+    others = held.of_others()
+    visits = (visit for block in production.unfinished() for visit in production.visits(block))
+    open_visits = (visit for visit in visits if production.missing(visit) and _name(visit) not in others)
+    return next((visit for visit in open_visits if held.take(_name(visit))), None)
 
 
 def _refuse_others(out: Path) -> None:

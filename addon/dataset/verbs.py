@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def prepare(path: Path, out: Path, only: str = "") -> Production:
-    """Read a plan, convert the members of its ensembles, and draw its samples."""
+    """Read a plan, convert the members of its ensembles, and draw its first samples."""
     plan = plan_file.read(path)
     if any(run.ensemble for run in plan.runs):
         with produce.alone(out, "members"):
@@ -66,14 +66,14 @@ def make(production: Production, overwrite: bool = False) -> None:
 
 
 def describe(production: Production) -> list[str]:
-    """Describe the draws of a production: splits, and cameras that were rejected."""
-    draws = production.draws
-    splits: dict[str, int] = {}
-    for each in draws.values():
-        splits[each.split] = splits.get(each.split, 0) + 1
+    """Describe the draws of the first block of a production: splits, and cameras that were rejected."""
+    block = production.blocks[0]
+    draws = [each for visit in production.visits(block) for each in visit.draws]
     by = Splits(production.plan).by
-    parts = ", ".join(f"{name} {splits[name]:,}" for name in SPLITS if name in splits)
-    lines = [f"splits by {by}: {parts}"]
+    numbers = [sum(each.split == name for each in draws) for name in SPLITS]
+    parts = ", ".join(f"{name} {number:,}" for name, number in zip(SPLITS, numbers, strict=True) if number)
+    part = "" if len(block) == production.plan.count else f" of samples {block[0]:,} to {block[-1]:,}"
+    lines = [f"splits{part} by {by}: {parts}"]
     if by == "camera":
         lines.append("all splits show the same fires, as there are fewer places and runs than splits")
     if rejects := count_rejects(draws):
@@ -83,17 +83,21 @@ def describe(production: Production) -> list[str]:
 
 
 def _facts(production: Production) -> dict[str, Any]:
-    """Collect the estimate for other programs; samples of one scene are made together."""
+    """Collect the estimate for other programs; samples of one scene are made together.
+
+    All blocks with requested samples are drawn.
+    """
     estimate = production.estimate()
-    scenes = [FrameList.of(each.index for each in visit.draws) for visit in production.visits]
+    visits = [visit for block in production.blocks for visit in production.visits(block)]
+    draws = [each for visit in visits for each in visit.draws]
     return {
         "count": production.plan.count,
         "missing": estimate.samples,
         "seconds": round(estimate.seconds),
         "bytes": round(estimate.bytes),
-        "scenes": scenes,
-        "rejects": count_rejects(production.draws),
-        "splits": {index: each.split for index, each in production.draws.items()},
+        "scenes": [FrameList.of(each.index for each in visit.draws) for visit in visits],
+        "rejects": count_rejects(draws),
+        "splits": {each.index: each.split for each in sorted(draws, key=lambda drawn: drawn.index)},
     }
 
 

@@ -137,7 +137,7 @@ def test_a_fire_behind_a_ridge_is_drawn_again_and_the_tries_are_counted(plan, dr
     after = drawer.draw(index)
     assert after.attempt == 2
     assert after.rejects == ("no fire in view",) * 2
-    assert draws.count_rejects({1: after}) == {"no fire in view": 2}
+    assert draws.count_rejects([after]) == {"no fire in view": 2}
     assert (after.kind, after.camera.kind, after.run) == (before.kind, before.camera.kind, before.run)
     assert after.values["blur"] != before.values["blur"]
 

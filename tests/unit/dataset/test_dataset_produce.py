@@ -112,6 +112,35 @@ def test_samples_alone_equal_those_of_the_data_set(plan, undisturbed, tmp_path):
     assert made.items() <= undisturbed.items()
 
 
+def test_a_sample_of_a_large_plan_needs_the_draws_of_its_block_alone(plan, tmp_path, monkeypatch):
+    """Each of them is drawn once, and its visits do not depend on the number of samples."""
+    large, drawn = dataclasses.replace(plan, count=1_000_000), []
+    monkeypatch.setattr(produce.places, "BLOCK", 96)
+    monkeypatch.setattr(produce.Drawer, "draw", _noted(produce.Drawer.draw, drawn))
+    production = produce.prepare(large, tmp_path / "set", "97,100")
+    assert production.estimate().samples == 2
+    produce.run(production, fake_samples.make)
+    assert drawn == list(range(97, 193))
+    assert sorted(fake_samples.log(tmp_path / "set")) == [97, 100]
+    small = produce.prepare(dataclasses.replace(plan, count=200), tmp_path, "97")
+    assert small.visits(small.blocks[0]) == production.visits(production.blocks[0])
+
+
+def _noted(draw, numbers):
+    def noted(drawer, index):
+        numbers.append(index)
+        return draw(drawer, index)
+
+    return noted
+
+
+def test_all_blocks_of_a_plan_are_made(plan, tmp_path, monkeypatch):
+    monkeypatch.setattr(produce.places, "blocks", lambda plan: [range(1, 6), range(6, 11), range(11, 17)])
+    monkeypatch.setattr(produce, "_KEPT", 1)
+    produce.run(produce.prepare(plan, tmp_path / "set"), fake_samples.make)
+    assert sorted(fake_samples.log(tmp_path / "set")) == list(range(1, COUNT + 1))
+
+
 def test_a_folder_of_another_plan_is_refused_with_the_changes(plan, tmp_path):
     out = tmp_path / "set"
     produce.run(produce.prepare(plan, out, "1"), fake_samples.make)
