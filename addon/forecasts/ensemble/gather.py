@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from datetime import datetime
 from functools import partial
 from pathlib import Path
 
@@ -69,33 +70,38 @@ def convert(path: Path, out: Path, horizon: float = 0.0, tell: MessageCallback =
         No run can be opened, or their starts or grids differ.
     """
     listing = listed(path)
-    opened = [_open(member) for member in listing.members]
-    runs = [(member, run) for member, run in opened if isinstance(run, Run)]
-    if not runs:
-        raise input_error(path, f"none of its {len(opened)} runs can be read; {opened[0][1]}")
-    grids = {member.name: ArrivalGrid.from_run(run) for member, run in runs}
-    latitude, longitude = _union(path, grids)
-    issued = listing.issued or times.utc(runs[0][1], 0.0)
+    outlined = [(member, _outline(member)) for member in listing.members]
+    outlines = {member.name: each for member, each in outlined if isinstance(each, _Outline)}
+    if not outlines:
+        raise input_error(path, f"none of its {len(outlined)} runs can be read; {outlined[0][1]}")
+    latitude, longitude = _union(path, outlines)
+    first = next(iter(outlines))
+    issued = listing.issued or outlines[first].begin
     head = replace(
         listing,
         issued=issued,
         horizon=horizon or listing.horizon,
         model=listing.model,
-        synthetic=listing.synthetic or any(run.synthetic for _, run in runs),
-        source=listing.source or f"{len(opened)} runs",
+        synthetic=listing.synthetic or any(each.synthetic for each in outlines.values()),
+        source=listing.source or f"{len(outlined)} runs",
     )
 
     def members() -> Iterator[write.Read]:
-        for member, run in opened:
-            if not isinstance(run, Run):
+        for member, outline in outlined:
+            if isinstance(outline, InputError):
+                yield member, outline
+                continue
+            run = _open(member)
+            if isinstance(run, InputError):
                 yield member, run
                 continue
-            shift = (times.utc(run, 0.0) - issued).total_seconds()
+            shift = (outline.begin - issued).total_seconds()
             if listing.issued is None and abs(shift) > 0.5:
-                reason = f"begins {shift / 3600.0:+.2f} h from {runs[0][0].name}; members have one start"
+                reason = f"begins {shift / 3600.0:+.2f} h from {first}; members have one start"
                 raise input_error(Path(run.path), f"{reason}; write issued = TIME in {MANIFEST} to accept it")
-            end = min(member.end, float(run.times[-1]) + shift)
-            yield replace(member, end=end), _placed(grids[member.name], shift, end, latitude, longitude)
+            end = min(member.end, outline.last + shift)
+            grid = ArrivalGrid.from_run(run)
+            yield replace(member, end=end), _placed(grid, shift, end, latitude, longitude)
 
     if path.is_file() or (path / MANIFEST).is_file():  # the list gives the kind
         return write.write(out, head, latitude, longitude, members())
@@ -110,12 +116,32 @@ def _absolute(listing: Manifest, folder: Path) -> Manifest:
     return replace(listing, members=tuple(members))
 
 
-def _open(member: Member) -> tuple[Member, Run | InputError]:
+@dataclass(frozen=True)
+class _Outline:
+    """Cell centres (degrees, ascending), start (UTC) and last time (s) of a run."""
+
+    latitude: NDArray[np.float64]
+    longitude: NDArray[np.float64]
+    begin: datetime
+    last: float
+    synthetic: bool
+
+
+def _outline(member: Member) -> _Outline | InputError:
+    """Outline a run, which is closed again: a process may open fewer files than an ensemble has."""
+    run = _open(member)
+    if isinstance(run, InputError):
+        return run
+    axes = np.sort(run.fuel_latitude), np.sort(run.fuel_longitude)
+    return _Outline(*axes, times.utc(run, 0.0), float(run.times[-1]), run.synthetic)
+
+
+def _open(member: Member) -> Run | InputError:
     assert member.run is not None
     try:
-        return member, readers.open(member.run)
+        return readers.open(member.run)
     except InputError as error:
-        return member, error
+        return error
 
 
 def _placed(
@@ -136,7 +162,7 @@ def _first(axis: NDArray[np.float64], common: NDArray[np.float64]) -> int:
     return int(np.abs(common - axis[0]).argmin())
 
 
-def _union(path: Path, grids: dict[str, ArrivalGrid]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _union(path: Path, outlines: dict[str, _Outline]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return axes that contain all grids.
 
     Raises
@@ -146,7 +172,7 @@ def _union(path: Path, grids: dict[str, ArrivalGrid]) -> tuple[NDArray[np.float6
     """
     unions = []
     for name in ("latitude", "longitude"):
-        axes = {member: getattr(grid, name) for member, grid in grids.items()}
+        axes = {member: getattr(grid, name) for member, grid in outlines.items()}
         try:
             unions.append(_extended(list(axes.values()), list(axes)))
         except Error as error:

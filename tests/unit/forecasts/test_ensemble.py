@@ -1,5 +1,6 @@
 """Ensembles: statistics by hand and by NumPy, depths of nested areas, and gathered runs."""
 
+import os
 from pathlib import Path
 
 import ensembles
@@ -286,6 +287,17 @@ def test_runs_become_members(make_members, tmp_path):
     assert np.isnan(second[:, 0]).all()
     np.testing.assert_array_equal(first[:, :-1], second[:, 1:])
     assert np.isinf(first[:, :-1]).any()  # "never" in the run
+
+
+def test_more_members_than_open_files(make_members, tmp_path):
+    resource = pytest.importorskip("resource")
+    folder, before = make_members(*[{}] * 12), resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (len(os.listdir("/dev/fd")) + 24, before[1]))
+    try:
+        gather.convert(folder, tmp_path / "out")
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, before)
+    assert len(ensemble.open(tmp_path / "out").members) == 12
 
 
 def test_members_on_other_cells_or_with_other_starts_are_refused(make_members, tmp_path):
