@@ -7,7 +7,7 @@ settings of every fingerprint.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from ..imaging.credits import Credits
 
 NAME = "manifest.json"
 _FORMAT = 1
+_LONGEST = 100  # characters of a name in a message
 
 
 def read(out: Path) -> dict[str, Any]:
@@ -37,9 +38,68 @@ def read(out: Path) -> dict[str, Any]:
     except (OSError, ValueError) as error:
         line, column = getattr(error, "lineno", 0), getattr(error, "colno", 0)
         raise input_error(path, BROKEN.format("a manifest"), line=line, column=column) from None
-    if not isinstance(content, dict) or content.get("format") != _FORMAT:
+    tables = isinstance(content, dict) and [content.get("settings"), content.get("files")]
+    if not tables or content.get("format") != _FORMAT or not all(isinstance(each, dict) for each in tables):
         raise input_error(path, BROKEN.format("a manifest"))
+    for table, checks in (("files", _OF_FILES), ("settings", _OF_SETTINGS)):
+        if wrong := _wrong_value(content[table], checks):
+            raise input_error(
+                path, f"{table}{wrong} is not as Firetwin writes it; render again with --resume"
+            )
     return content
+
+
+def _wrong_value(table: dict[str, Any], checks: Mapping[str, Callable[[Any], bool]]) -> str:
+    """Return the keys of the first value of another type or range; empty if all are valid."""
+    for name, entry in table.items():
+        if not isinstance(entry, dict):
+            return f".{name[:_LONGEST]!r}"
+        for key in entry.keys() & checks.keys():
+            if not checks[key](entry[key]):
+                return f".{name[:_LONGEST]!r}.{key}"
+    return ""
+
+
+def _is_text(value: Any) -> bool:
+    return isinstance(value, str)
+
+
+def _is_count(value: Any) -> bool:
+    return type(value) is int and 0 <= value < 2**53
+
+
+def _is_texts(value: Any) -> bool:
+    return isinstance(value, list) and all(map(_is_text, value))
+
+
+def _is_table_of_texts(value: Any) -> bool:
+    return isinstance(value, dict) and all(map(_is_text, value.values()))
+
+
+def _is_credits(value: Any) -> bool:
+    return isinstance(value, dict) and all(map(_is_texts, value.values()))
+
+
+def _is_frames(value: Any) -> bool:
+    pairs = isinstance(value, list) and all(isinstance(each, list) and len(each) == 2 for each in value)
+    return pairs and all(_is_count(frame) for frame, _ in value)
+
+
+_OF_FILES: dict[str, Callable[[Any], bool]] = {
+    **dict.fromkeys(("camera", "pass", "time", "clock", "settings", "film", "sha256"), _is_text),
+    **dict.fromkeys(("credits", "services", "missing_tiles"), _is_texts),
+    "bytes": _is_count,
+    "slate_frames": _is_count,
+    "frame": lambda value: value is None or _is_count(value),
+}
+_OF_SETTINGS: dict[str, Callable[[Any], bool]] = {
+    **dict.fromkeys(("camera", "pass", "fps", "film"), _is_text),
+    "versions": _is_table_of_texts,
+    "run": lambda value: isinstance(value, dict),
+    "tiles": lambda value: isinstance(value, dict),
+    "credits": _is_credits,
+    "frames": _is_frames,
+}
 
 
 def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:

@@ -316,7 +316,7 @@ def _make_set(patch: Patch) -> None:
 
 
 def _deliver(_: Patch) -> None:
-    _film({"run": 1})
+    _film({"run": {}})
     Path("versions/latest").mkdir(parents=True, exist_ok=True)  # so that a text names the latest version
 
 

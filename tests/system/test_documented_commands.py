@@ -111,7 +111,7 @@ def finish(out, made_with=None):
             (opened.out / path).write_bytes(path.encode())
             entries[path] |= {"camera": "drone", "pass": "rgb"} | store.describe(opened.out / path)
         about = {"film": "rgb", "kind": "clean", "fps": "24", "frames": [[1, ""], [2, ""]]}
-        opened.add({"run": 1, "camera": "drone"} | about | (made_with or {}), entries)
+        opened.add({"run": {}, "camera": "drone"} | about | (made_with or {}), entries)
         opened.export()
 
 

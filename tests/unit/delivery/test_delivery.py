@@ -1,5 +1,6 @@
 """Deliveries: names by a pattern, hashes, versions that are never overwritten."""
 
+import contextlib
 import json
 import os
 import subprocess
@@ -10,7 +11,7 @@ from firetwin import cli
 from firetwin.delivery import names, version
 from firetwin.delivery.command import PATTERN
 from firetwin.errors import InputError, UsageError
-from firetwin.render import store
+from firetwin.render import manifest, store
 from firetwin.render.picture import Picture, film
 from firetwin.render.store import Store
 
@@ -33,7 +34,7 @@ def finished(tmp_path):
                 (out / path).parent.mkdir(parents=True, exist_ok=True)
                 (out / path).write_bytes(path.encode())
                 entries[path] |= store.describe(out / path)
-            film_store.add({"run": 1}, entries)
+            film_store.add({"run": {}}, entries)
         film_store.export()
     return out
 
@@ -121,9 +122,37 @@ def test_values_of_a_manifest_never_lead_out_of_the_version(finished, tmp_path, 
         entry |= hostile
     path.write_text(json.dumps(content))
     out, before = tmp_path / "a" / "b" / "delivered", sorted(tmp_path.rglob("*"))
-    with pytest.raises(InputError, match=r"manifest.json: names .* cannot be part of a file name"):
+    words = r"manifest.json: (names .* cannot be part of a file name|files.* is not as Firetwin writes it)"
+    with pytest.raises(InputError, match=words):
         version.write(out, names.choose(finished, PATTERN, 1001))
     assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.parametrize("value", [None, True, -1, 7, 2**70, 1e300, "x", [], [7], {}, {"x": 7}], ids=repr)
+def test_a_manifest_with_other_values_is_read_or_one_line(finished, value):
+    """Each value of an entry, of its settings, and each table, in place of the one that was written."""
+    path = finished / "manifest.json"
+    text = path.read_text()
+    places = [(), ("files",), ("settings",), ("files", 0), ("settings", 0)]
+    places += [
+        ("files", 0, key) for key in ("bytes", "sha256", "camera", "pass", "frame", "film", "settings")
+    ]
+    places += [("files", 0, key) for key in ("time", "clock", "slate_frames", "credits", "missing_tiles")]
+    places += [("settings", 0, key) for key in ("frames", "fps", "versions", "credits", "tiles", "run")]
+    for place in places:
+        content = {"": json.loads(text)}
+        table, name = content, ""
+        for key in place:
+            table = table[name]
+            name = key if isinstance(key, str) else next(iter(table))
+        table[name] = value
+        path.write_text(json.dumps(content[""]))
+        with contextlib.suppress(InputError):
+            names.choose(finished, PATTERN, 1001)
+            read = manifest.read(finished)
+            manifest.versions(read["settings"].values())
+            for made_with in read["settings"].values():
+                manifest.credit_entry(made_with)
 
 
 def test_two_deliveries_at_once_get_two_numbers(finished, tmp_path):
@@ -195,7 +224,7 @@ def test_a_file_that_its_exr_names_keeps_its_name(tmp_path):
         for path in paths:
             (out / path).write_bytes(b"content")
         facts = {"camera": "drone", "pass": "data", "frame": 1}
-        film_store.add({"run": 1}, {path: facts | store.describe(out / path) for path in paths})
+        film_store.add({"run": {}}, {path: facts | store.describe(out / path) for path in paths})
         film_store.export()
     found = {each.pattern for each in names.choose(out, PATTERN, 1001).files}
     assert found == {"drone/data/drone_data.1001.exr", "drone/data/drone_data_000001.json"}

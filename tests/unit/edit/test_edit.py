@@ -60,7 +60,7 @@ def rendered(make_run, tmp_path):
                 for name in names:
                     _add(
                         film_store,
-                        {"run": 1},
+                        {"run": {}},
                         camera,
                         name,
                         {Picture(camera, f, name).file("exr"): f for f in frames},
