@@ -1,4 +1,4 @@
-"""Time window of a film: the most active part of a run, at a speed at which smoke flows."""
+"""Time window of a film: the most active part of a run, if possible by daylight; smoke flows at its speed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
 from ..progress import duration
-from ..run import areas, burning, extent, times, zone
+from ..run import areas, burning, extent, sun, times, zone
 from ..shot.fire import smoke_scale
 from ..shot.sections import Time
 
@@ -19,6 +19,8 @@ FRAMES, FPS = 48, 12  # four seconds, as in the example
 # the smoke of a drone's picture then moves by a few pixels (by eye, and by the subject "motion" of the bench)
 _SPEED, _LARGE = (1.0, 15.0), 15_000.0
 _STEP = 60.0  # s; most time between the starts of candidate windows
+NEARLY = 0.7  # of the most fuel that a window by daylight has to reach to be chosen (by eye)
+_SUN_STEP = 600.0  # s between solar elevations
 
 Array = NDArray[np.float64]
 
@@ -42,12 +44,15 @@ def choose(run: Run, asked: Time) -> tuple[Time, str]:
     came, whole_run = arrival[row, column], last - first
     seconds = length(_size(run, arrival <= last), whole_run)
     seconds = max(seconds, min(_unresolved(run, arrival, row, column), whole_run))
-    begin = most_active(came, fuel, first, last, seconds)
-    start, end = (times.utc(run, time) for time in (begin, begin + seconds))
-    part = float(fuel[(came >= begin) & (came <= begin + seconds)].sum() / fuel.sum())
+    begins, reached = activity(came, fuel, first, last, seconds)
+    most, day = best(reached), _best_by_day(run, begins + 0.5 * seconds, reached)
+    filmed = day if day is not None and reached[day] >= NEARLY * reached[most] else most
+    start, end = (times.utc(run, begins[filmed] + more) for more in (0.0, seconds))
+    part = f"{100.0 * reached[filmed] / fuel.sum():.2g} % of the fuel that burns in the run"
+    light = "" if most == day else _light(run, begins, reached, filmed, most, day)
     words = (
-        f"{_words(start, end, there)}, the most active {duration(seconds)}: "
-        f"{100.0 * part:.2g} % of the fuel that burns in the run; {_pace(seconds)}"
+        f"{_words(start, end, there)}, the most active {duration(seconds)}"
+        f"{' by daylight' * (filmed != most)}: {part}; {_pace(seconds)}{light}"
     )
     return replace(whole, start=start, end=end), words
 
@@ -61,12 +66,13 @@ def length(size: float, whole: float) -> float:
     return min(speed * (FRAMES - 1) / FPS, whole)
 
 
-def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, length: float) -> float:
-    """Start (s) of the window of `length` s in which the front reaches the most fuel.
+def activity(
+    arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, length: float
+) -> tuple[Array, Array]:
+    """Compute the fuel (n,) that the front reaches in windows of `length` s, by their starts (n,), s.
 
-    Candidates are windows within the run that begin every minute after `first`, or every `length` in whole
-    seconds if that is shorter, and the last one. The last of equal ones is chosen, in which flames
-    show from the beginning.
+    Windows within the run begin every minute after `first`, or every `length` in whole seconds if that is
+    shorter; one more is the last.
 
     Parameters
     ----------
@@ -82,8 +88,33 @@ def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, 
     begin = np.append(np.arange(first, last - length, step), max(np.floor(last - length), first))
     before = np.searchsorted(arrival[order], begin, "left")
     by = np.searchsorted(arrival[order], begin + length, "right")
-    reached = total[by] - total[before]
-    return float(begin[np.flatnonzero(reached == reached.max())[-1]])
+    return begin, total[by] - total[before]
+
+
+def best(reached: Array) -> int:
+    """Return the index of the most active window; of equal ones the last, with flames from its beginning."""
+    return int(np.flatnonzero(reached == reached.max())[-1])
+
+
+def _best_by_day(run: Run, middle: Array, reached: Array) -> int | None:
+    """Return the index of the most active window (n,) with the sun up in its middle (s); None without one."""
+    sampled = np.append(np.arange(middle[0], middle[-1], _SUN_STEP), middle[-1])
+    height = [sun.position(run, float(time))[1] for time in sampled]
+    by_day = np.flatnonzero(np.interp(middle, sampled, height) > 0.0)
+    if not len(by_day) or not reached[by_day].any():
+        return None
+    return int(by_day[best(reached[by_day])])
+
+
+def _light(run: Run, begins: Array, reached: Array, chosen: int, most: int, day: int | None) -> str:
+    """Describe the most active window in other light than the chosen one's."""
+    if day is None:
+        return "; by night, and nothing burns by daylight"
+    other = most if chosen == day else day
+    when, share = times.iso(times.utc(run, begins[other])), reached[other] / reached[chosen]
+    if chosen == day:
+        return f"; by night, {when} has {share:.2g} times the fuel"
+    return f"; by night: daylight with the most fire ({100.0 * share:.0f} %) begins at {when} (--start)"
 
 
 def _burned(run: Run, arrival: Array) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:

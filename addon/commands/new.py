@@ -10,10 +10,11 @@ from ..command import SCENES, Command, add_overwrite
 from ..progress import result
 
 _DETAIL = """\
-Selects the most active part of the run, and fits cameras to the fire: an overview from upwind with the sun
-behind it, a chase camera at the head, a close view of a flank, and a view from above. Each camera is moved
-until at least half of its front is in the frustum and not occluded by terrain or dense smoke; the visible
-share is printed. `render`, `build` and `bake` of RUN use the same settings.
+Selects the most active part of the run, by daylight if it is nearly as active, and fits cameras to the fire:
+an overview from upwind with the sun behind it, a chase camera at the head, a close view of a flank, and a
+view from above. Each camera is moved until at least half of its front is in the frustum and not occluded by
+terrain or dense smoke; the visible share is printed. `render`, `build` and `bake` of RUN use
+the same settings.
 
 --views writes one scene file for each kind of fire in the run, by day and by night: a torching crown, surface
 fire under trees, grass fire, and a crown run. Each is a clip of four seconds in real time, from distances of

@@ -26,6 +26,10 @@ _ADAPTATION_DARK, _ADAPTATION_BRIGHT = 0.6, 0.3
 _WHITE = 0.34  # largest luminance of the brightest tenth of the glow; above, AgX turns it from orange to pink
 _AMID = 0.085  # largest mean of the glow over the picture: flames and trees must show in it; by eye
 _LEAST, _MOST = -3.0, 4.0  # stops
+_TWILIGHT, _MORE = (
+    (-18.0, -6.0),
+    2.0,
+)  # heights (degrees) within which dusk may have so many stops more; by eye
 _SUNLIT, _RISEN = 0.2, (-2.0, 6.0)  # darkness at most while the sun is up, and heights (degrees); by eye
 _DARK = 1.4, 3.4  # stops without flames at which flame light begins to dominate, and dominates fully; by eye
 
@@ -65,28 +69,35 @@ def _metered(shot: Shot) -> _Metered:
     frames = np.unique(np.linspace(1, shot.frames.count, min(shot.frames.count, _KEYS)).round())
     if not shot.paths:
         clear = [exposure_meter.clear(sky.state(shot, shot.frames.time(frame))) for frame in frames]
-        stops = np.array([_stops(each, np.zeros(2)) for each in clear])
+        most = [_most(_sun(shot, frame)) for frame in frames]
+        stops = np.array([_stops(each, np.zeros(2), top) for each, top in zip(clear, most, strict=True)])
         return _Metered(frames, stops, noise.smoothstep(*_DARK, stops))
     metered = [[exposure_meter.measure(shot, view, int(frame)) for frame in frames] for view in shot.paths]
     suns = [_sun(shot, frame) for frame in frames]
     dark = np.array([[_dark(each[1], sun) for each, sun in zip(view, suns, strict=True)] for view in metered])
     stops = np.array(
         [
-            _stops(*_with_flames(all_light, level, shine, sun))
+            _stops(*_with_flames(all_light, level, shine, sun), _most(sun))
             for (all_light, level, shine), sun in zip(metered[0], suns, strict=True)
         ]
     )
     return _Metered(frames, targets.smoothed(stops), targets.smoothed(dark.max(axis=0)))
 
 
-def _stops(luminance: Array, glow: Array) -> float:
-    """Compute stops for these luminances (n,) and the glow (n,) of flame-lit smoke among them."""
+def _stops(luminance: Array, glow: Array, most: float = _MOST) -> float:
+    """Compute stops, up to `most`, for luminances (n,) and the glow (n,) of flame-lit smoke among them."""
     mean = np.log2(np.maximum(luminance, 1.0e-4)).mean()
     below = np.log2(_CLEAR) - mean
     wanted = _DAY + _ADAPTATION_DARK * max(below, 0.0) + _ADAPTATION_BRIGHT * min(below, 0.0)
     bright = np.sort(glow)[-max(len(glow) // 10, 1) :].mean()
-    most = min(_WHITE / max(bright, 1.0e-6), _AMID / max(glow.mean(), 1.0e-6))
-    return float(np.clip(min(wanted, np.log2(most)), _LEAST, _MOST))
+    white = min(_WHITE / max(bright, 1.0e-6), _AMID / max(glow.mean(), 1.0e-6))
+    return float(np.clip(min(wanted, np.log2(white)), _LEAST, most))
+
+
+def _most(sun: float) -> float:
+    """Return the largest stops at a solar elevation (degrees): more at dusk, so that land and smoke show."""
+    dusk = noise.smoothstep(*_TWILIGHT, sun) * (1.0 - noise.smoothstep(*_RISEN, sun))
+    return _MOST + _MORE * float(dusk)
 
 
 def _sun(shot: Shot, frame: float) -> float:

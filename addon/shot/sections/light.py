@@ -28,7 +28,7 @@ class Light:
     )
     exposure: float | None = key(
         None,
-        "exposure; default: exposure metering per camera: about 0.5 by day, up to 4 by night",
+        "exposure; default: exposure metering per camera: about 0.5 by day, up to 4 by night, 6 at dusk",
         unit="stops",
         at_least=-20,
         at_most=20,

@@ -100,6 +100,16 @@ def test_unlit_ground_is_dark_but_readable_in_a_picture_exposed_for_flames(
     assert flame > 100.0 * unlit
 
 
+def test_dusk_is_exposed_to_be_seen(filmed, run_folder, tmp_path):
+    """Half an hour after sunset level ground is brighter than a night of 4 stops would show it."""
+    run = fire(run_folder, tmp_path / "run", "2014-09-18T02:15:00Z")
+    settings = filmed(14.0, moment=datetime(2014, 9, 18, 2, 30, tzinfo=UTC))
+    shot = Shot(settings, run)
+    assert -6.0 < exposure._sun(shot, 1) < -4.0
+    ground = exposure_meter.clear(sky.state(shot, shot.frames.time(1)))[0]
+    assert 0.008 < ground * 2.0 ** stops(settings, run)[0] < 0.06
+
+
 def test_without_smoke_nothing_glows_and_the_night_is_exposed_for_its_moon(filmed, night_run):
     moonlit = stops(filmed(1.5, enabled=False), night_run)[0]
     assert moonlit > stops(filmed(1.5), night_run)[0] + 1.0

@@ -1,5 +1,6 @@
 """Settings that fit a run: the most active part of it, and cameras that show most of the front."""
 
+import re
 import zoneinfo
 from dataclasses import replace
 from datetime import timedelta
@@ -19,7 +20,7 @@ from firetwin.auto_framing import (
     visible_share,
     window,
 )
-from firetwin.run import readers, sun, zone
+from firetwin.run import readers, sun, times, zone
 from firetwin.shot import run_checks
 from firetwin.shot.cameras import targets
 from firetwin.shot.cameras.rigs.chase import Chase
@@ -345,11 +346,37 @@ def test_a_run_of_one_moment_is_a_still(make_run):
 def test_a_window_is_where_the_fuel_burns_not_where_the_area_grows():
     arrival = np.array([10.0] * 50 + [5000.0] * 10)
     fuel = np.array([0.1] * 50 + [5.0] * 10)
-    begin = window.most_active(arrival, fuel, 0.0, 7200.0, 600.0)
+
+    def most_active(arrival, fuel):
+        begins, reached = window.activity(arrival, fuel, 0.0, 7200.0, 600.0)
+        return begins[window.best(reached)]
+
+    begin = most_active(arrival, fuel)
     assert begin <= 5000.0 <= begin + 600.0
-    assert window.most_active(arrival, np.ones(60), 0.0, 7200.0, 600.0) == 0.0
-    at_once = window.most_active(np.full(5, 1000.0), np.ones(5), 0.0, 7200.0, 600.0)
+    assert most_active(arrival, np.ones(60)) == 0.0
+    at_once = most_active(np.full(5, 1000.0), np.ones(5))
     assert at_once == 960.0, "the last window with the fire, which burns from its first minute"
+
+
+@pytest.mark.parametrize(
+    ("share", "words"),
+    [
+        (0.8, "by daylight: .*; by night, 2020-.* has 1[.].* times the fuel"),
+        (0.2, r"the most active 20 s: .*; by night: daylight with the most fire \(.* %\) begins at 2020-"),
+        (0.0, "the most active 20 s: .*; by night, and nothing burns by daylight"),
+    ],
+)
+def test_of_nearly_equally_active_windows_one_by_daylight_is_filmed(fit_of, monkeypatch, share, words):
+    """The fire grows: the sun sets when a share of its largest activity is reached."""
+    _, run = fit_of("grass")
+    row, column, fuel = window._burned(run, run.fuel_arrival_time())
+    came, last = run.fuel_arrival_time()[row, column], float(run.times[-1])
+    begins, reached = window.activity(came, fuel, float(run.times[0]), last, 19.6)
+    sunset = begins[np.flatnonzero(reached >= share * reached.max())[0]] if share else -1e6
+    monkeypatch.setattr(window.sun, "position", lambda run, time: (180.0, sunset + 20.0 - time))
+    chosen, text = window.choose(run, Time())
+    assert re.search(words, text), text
+    assert (times.seconds(run, chosen.start) <= sunset + 20.0) == (share > window.NEARLY)
 
 
 def test_a_film_is_at_most_15_times_real_time_and_slower_of_a_small_fire(fit_of):
