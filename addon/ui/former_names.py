@@ -16,6 +16,7 @@ import bpy
 from .. import progress
 from ..blender import compat, owned
 from ..shot.schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, REMOVED, current
+from . import keys
 
 
 @bpy.app.handlers.persistent
@@ -28,27 +29,32 @@ def migrate(*_: object) -> None:
                 owned.mark(collection, name.title())
                 collection.name = f"Firetwin {name.title()}"
     for scene in bpy.data.scenes:
-        stored = compat.stored_properties(scene).get("firetwin", {})
+        stored = _section(compat.stored_properties(scene).get("firetwin"))
         for former, name in FORMER.items():
             if former in stored:
-                kept = stored[former].to_dict()
+                kept = stored[former].to_dict() if _section(stored[former]) else {}
                 for gone in {former, name} & {*stored.keys()}:
                     del stored[gone]
                 stored[name] = kept
                 renamed.append(f"[{former}] is called [{name}] now")
         for (section, former), name in FORMER_KEYS.items():
-            kept = stored.get(section, {})
+            kept = _section(stored.get(section))
             if former in kept:
                 kept[name] = kept[former]
                 del kept[former]
                 renamed.append(f"{section}.{former} is called {section}.{name} now")
-            exact = json.loads(kept.get("exact") or "{}")  # see `keys`
+            exact = keys.parse_exact(kept.get("exact"))
             if former in exact:
                 kept["exact"] = json.dumps(exact | {name: exact.pop(former)})
-        _store_as_float(stored.get("time", {}), "fps")
+        _store_as_float(_section(stored.get("time")), "fps")
     if renamed:
         names = "; ".join(dict.fromkeys(renamed))
         progress.say(f"{names}; save the file, because former names are read in this version only")
+
+
+def _section(stored: Any) -> Any:
+    """Return the stored values of a section; none if a file has another type in its place."""
+    return stored if hasattr(stored, "to_dict") else {}
 
 
 def _store_as_float(kept: Any, name: str) -> None:

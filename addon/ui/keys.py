@@ -97,9 +97,18 @@ def sentence(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
+def parse_exact(text: Any) -> dict[str, Any]:
+    """Parse the exact values of a group; none if the text is not as `put` writes it."""
+    try:
+        exact = json.loads(text or "{}")
+    except (TypeError, ValueError, RecursionError):
+        return {}
+    return exact if isinstance(exact, dict) else {}
+
+
 def put(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
     """Set a group's property to a value of the key."""
-    exact = json.loads(group.exact or "{}")
+    exact = parse_exact(group.exact)
     exact.pop(part.name, None)
     _show(group, part, value)
     if take(group, part, {}) != value:
@@ -115,7 +124,7 @@ def take(group: bpy.types.PropertyGroup, part: Field, exact: dict[str, Any] | No
     Error
         A typed text is not a valid value.
     """
-    exact = json.loads(group.exact or "{}") if exact is None else exact
+    exact = parse_exact(group.exact) if exact is None else exact
     kept = _restore(part, exact[part.name]) if part.name in exact else _ABSENT
     same = kept is not _ABSENT and stored_value(group, part) == _stored_as(part, kept)
     return kept if same else _value(group, part)

@@ -48,6 +48,23 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path, capsys):
     assert "tiles.error is called tiles.max_screen_space_error now" in note
 
 
+class Group(dict):
+    """Stored values of a section, as Blender gives them."""
+
+    def to_dict(self):
+        return dict(self)
+
+
+@pytest.mark.parametrize("kind", ["number", "text", "list", "exact number", "nested exact"])
+def test_values_of_other_types_are_left_out(panel, monkeypatch, kind):
+    values = {"number": 7, "text": "exact", "list": [1, 2]}
+    values |= {"exact number": Group(exact=7, error=3.0), "nested exact": Group(exact="[" * 100_000)}
+    value, names = values[kind], ("ground", "places", "tiles", "time", "terrain")
+    for stored in (value, Group({name: value for name in names})):
+        monkeypatch.setattr(compat, "stored_properties", lambda _, stored=stored: {"firetwin": stored})
+        former_names.migrate()
+
+
 def test_presets_of_the_last_version_are_updated(tmp_path, monkeypatch):
     path = tmp_path / "mine.py"
     path.write_text(
