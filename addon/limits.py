@@ -114,6 +114,7 @@ SMALLEST_NUMBER, LARGEST_NUMBER = 1e-6, 1e9
 """Bounds of a load, speed, time, distance or cost of a resource that is not 0."""
 _BOUNDS = f"0, and {SMALLEST_NUMBER:.6f} to {LARGEST_NUMBER:,.0f}"
 LIMITS.append(Limit(_S, "numbers of a resource, such as its cost", _BOUNDS, "refused"))
+STATION_TEXT = _number(_S, "characters of a text of an imported station, such as its name", 10_000, "refused")
 LABELS = _number(_S, "labels in a scene", 500, "refused")
 SIGNS = _number(_S, "station signs in a scene", 1000, "refused")
 ROUTES = _number(_S, "lines of routes in a scene", 1000, "refused")

@@ -10,7 +10,7 @@ from __future__ import annotations
 from pathlib import Path
 from types import ModuleType
 
-from ... import files, plugins
+from ... import files, limits, plugins
 from ...errors import InputError, input_error, reading
 from ...run.observations.feature import SAVE_IN_DEGREES
 from ..import_options import USUAL, ImportOptions
@@ -57,12 +57,22 @@ def read(path: Path, options: ImportOptions = USUAL) -> Batch:
         if path.suffix.lower() != ".gpkg":
             files.check_text_size(path)
         try:
-            return importer.read(path, options)
+            return _checked(path, importer.read(path, options))
         except InputError as error:
             if SAVE_IN_DEGREES in str(error) and not options.crs:
                 reason = f"{error.reason}, or name the system, such as --crs EPSG:26910 (UTM zone 10 north)"
                 raise input_error(path, reason) from None
             raise
+
+
+def _checked(path: Path, batch: Batch) -> Batch:
+    """Check the lengths of the texts of stations."""
+    for number, draft in enumerate(batch.stations, 1):
+        for name, value in vars(draft).items():
+            if isinstance(value, str) and len(value) > limits.STATION_TEXT:
+                reason = f"the {name} of station {number} has {len(value):,} characters"
+                raise input_error(path, f"{reason}; at most {limits.STATION_TEXT:,} are read: shorten it")
+    return batch
 
 
 def _unknown_format() -> str:

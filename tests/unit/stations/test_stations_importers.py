@@ -328,3 +328,16 @@ def test_a_geopackage_of_something_else_is_no_file_of_places(tmp_path):
         importers.read(path)
     with pytest.raises(InputError, match="is not a station file"):
         reading.read(path)
+
+
+@pytest.mark.parametrize("length", [10_000, 10_001])
+def test_texts_of_stations_are_limited(tmp_path, length):
+    path = tmp_path / "mine.csv"
+    path.write_text(f"name,lat,lon\n{'A' * length},38.9,-120.6\n")
+    if length == 10_000:
+        assert len(importers.read(path).stations[0].name) == length
+    else:
+        with pytest.raises(
+            InputError, match=r"mine\.csv: the name of station 1 has 10,001 characters; at most"
+        ):
+            importers.read(path)
