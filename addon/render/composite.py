@@ -124,7 +124,8 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     behind = solid * (share * near + (1.0 - share) * far)
     smoky = marched[..., 7] if marched.shape[-1] > 7 else marched[..., 3]
     edge = (np.abs(smoky[:, :, 0] - smoky[:, :, 1]) > _EDGE) & ~_extended(surfaces)
-    inner = _without_edges(solid, distances[..., 0], share[..., 0], edge)
+    noisy = np.maximum(surfaces.noisy - surfaces.fire, 0.0)
+    inner = _without_edges(solid, noisy, distances[..., 0], share[..., 0], edge)
     # At an edge in smoke the near surface takes the colour of its neighbours, because a denoiser mixes it
     # with distant light, such as fire behind smoke. Flames that are marched are not in that colour.
     split = share * inner * (near - far) + solid * far
@@ -341,12 +342,13 @@ def _flame_light(surfaces: Surfaces) -> Array:
     return np.where(alight, surfaces.colour * np.clip(part, 0.0, 1.0), 0.0)
 
 
-def _without_edges(colour: Array, near: Array, share: Array, edge: NDArray[np.bool_]) -> Array:
+def _without_edges(colour: Array, noisy: Array, near: Array, share: Array, edge: NDArray[np.bool_]) -> Array:
     """Replace edge pixels of a colour (h, w, 3) by that of their near surface, which covers a share (h, w).
 
     It is the mean of non-edge neighbours at equal depth. If there are none, as at twigs, it is extrapolated
-    from the pixel and the neighbour with the least share to a pixel that the near surface covers, up to the
-    darkest colour of the 3 x 3 neighbourhood: bright outliers are fire or sky behind smoke.
+    from the pixel and the neighbour with the least share to a pixel that the near surface covers, before the
+    denoiser mixes them, up to the darkest colour of the 3 x 3 neighbourhood: bright outliers are fire or sky
+    behind smoke.
     """
     cleaned = colour.copy()
     rows, columns = np.nonzero(edge)
@@ -355,7 +357,7 @@ def _without_edges(colour: Array, near: Array, share: Array, edge: NDArray[np.bo
     height, width = edge.shape
     darkest = np.stack([-dilate(-colour[..., channel], 1) for channel in range(3)], axis=-1)[rows, columns]
     total, weight = np.zeros((len(rows), 3), np.float32), np.zeros(len(rows), np.float32)
-    own, covered = colour[rows, columns], share[rows, columns]
+    own, covered = noisy[rows, columns], share[rows, columns]
     here, least, farther = near[rows, columns], covered.copy(), own.copy()
     for down in range(-_REACH, _REACH + 1):
         for across in range(-_REACH, _REACH + 1):
@@ -368,7 +370,7 @@ def _without_edges(colour: Array, near: Array, share: Array, edge: NDArray[np.bo
             weight += part
             less = share[row, column] < least
             least = np.where(less, share[row, column], least)
-            farther = np.where(less[:, None], colour[row, column], farther)
+            farther = np.where(less[:, None], noisy[row, column], farther)
     apart = np.maximum(covered - least, 1.0e-3)[:, None]
     covering = ((1.0 - least)[:, None] * own - (1.0 - covered)[:, None] * farther) / apart
     mean = total / np.maximum(weight, 1.0e-9)[:, None]

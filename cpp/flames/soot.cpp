@@ -12,6 +12,8 @@ namespace {
 constexpr float lean_end = 0.4F, lean_full = 0.75F;       // Z between which soot burns up
 constexpr float peak = 1.25F, width = 1.2F;               // Z of the most soot, and its spread
 constexpr float rich_soot = 0.4F;                         // share of soot far on the rich side
+constexpr float young = 0.1F;                             // share of the soot at the foot
+constexpr float grown = 0.13F;                            // height from which all has formed
 constexpr float hottest = 1.1F;                           // Z
 constexpr float lean_cooling = 1.2F, rich_cooling = 0.7F; // of the heat per Z
 constexpr float burnout = 0.95F; // share of the lean soot that is gone over the tips
@@ -25,7 +27,8 @@ float soot_at(float mixture, float height) {
   const float away = (mixture - peak) / width;
   const float burned = burnout * smoothstep(tips[0], tips[1], height) *
                        (1.0F - smoothstep(lean_full, hottest, mixture));
-  return (1.0F - burned) * smoothstep(lean_end, lean_full, mixture) *
+  const float formed = young + (1.0F - young) * smoothstep(0.0F, grown, height);
+  return formed * (1.0F - burned) * smoothstep(lean_end, lean_full, mixture) *
          (rich_soot + (1.0F - rich_soot) * std::exp(-away * away));
 }
 

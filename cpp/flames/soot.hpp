@@ -7,8 +7,9 @@ namespace firetwin::flames {
 /// Soot and heat of burning gas by its mixture fraction Z over the stoichiometric one.
 ///
 /// Soot forms on the rich side of the flame sheet and burns up on the lean side, where cool soot is
-/// left at the tips. Gas is hottest near Z = 1 (fast chemistry) and cools with height as soot
-/// radiates. Widths and slopes are by eye; they set colours, not power (see `FlameLight`).
+/// left at the tips. It needs time to form, so the foot of a flame is thin. Gas is hottest near Z =
+/// 1 (fast chemistry) and cools with height as soot radiates. Widths and slopes are by eye; they
+/// set colours, not power (see `FlameLight`).
 
 constexpr float core_heat = 0.75F; ///< heat at which the luminance is 1
 /// Decades of luminance in a unit of heat, below and above the core: hotter parts of a flame are

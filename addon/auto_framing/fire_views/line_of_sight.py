@@ -13,6 +13,7 @@ from ...shot.terrain.terrain import Terrain
 
 _SAMPLES = 24  # places along a line of sight at which the terrain is compared
 _CROWN = 0.17  # radius of a crown at its base, over the tree's height (assumed, on the wide side)
+_ROUND = 0.5  # exponent of the outline of a crown, which is as wide as a pine's near its top (by eye)
 _BASE, _TRUNK = 0.1, 0.012  # height of that base and radius of the trunk, over the tree's height (assumed)
 _BUSH = 0.75  # radius of low plants and rocks over their height and width (assumed, on the wide side)
 _LOW = 0.25  # m, height of plants that hide nothing
@@ -53,7 +54,7 @@ class Plants:
         """Return the trees of a stand."""
         height = stand.height
         radius, trunk = _CROWN * height * stand.width, _TRUNK * height
-        rest = (np.full(len(height), value) for value in (1.0, _BASE, CLEARING, _OWN[0]))
+        rest = (np.full(len(height), value) for value in (_ROUND, _BASE, CLEARING, _OWN[0]))
         return cls(stand.position[:, :2], height, radius, trunk, *rest)
 
     @classmethod

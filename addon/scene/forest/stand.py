@@ -21,7 +21,8 @@ from . import biomes, models, planted_rows, plot, stand_structure, visibility
 from .plot import Plot
 
 TALLEST = 42.0  # m; the core's largest tree
-CLEARING = 25.0  # m round the cameras without trees, for light and a free view
+CLEARING = 25.0  # m around the cameras without any part of a trunk, for light and a free view
+_PARTS = 0.33, 0.67, 1.0  # of a trunk, places that are compared with cameras
 _PATCH = 90.0  # m, of trees of one species (by eye)
 _GROUP = 150.0  # m, of conifers of one species in the Sierra (by eye)
 _CROWN = 5.0  # m, width of a medium tree; where a pixel is wider, fewer trees give the same cover
@@ -74,7 +75,8 @@ def grow(shot: Shot) -> Stand:
     key = np.stack([stems.key >> 32, stems.key & 0xFFFFFFFF], axis=-1)
     distance = shot.visibility.distance(position)
     fade = _fade(distance, reach) if shot.pixel[1] > visibility.PIXEL else 1.0
-    there = (noise.uniform(key[:, 0], key[:, 1], settings.seed + 202) < fade) & (distance > CLEARING)
+    there = noise.uniform(key[:, 0], key[:, 1], settings.seed + 202) < fade
+    there &= _is_clear_of_cameras(shot, position, stems.scale, distance)
     stands = noise.uniform(key[there, 0], key[there, 1], settings.seed + 203)
     there[there] = stands < stand_structure.retained(shot, position[there], planted[there])
     there[there] = visibility.visible(shot, position[there], stems.scale[there], reach, stems.width[there])
@@ -100,6 +102,21 @@ def grow(shot: Shot) -> Stand:
         distance[chosen],
         reach if settings.forest.density == "stand" else 0.0,
     )
+
+
+def _is_clear_of_cameras(
+    shot: Shot, position: NDArray[np.float64], height: NDArray[np.floating], distance: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return which trees (n) of these heights (m) have no part of their trunk within `CLEARING` of a camera.
+
+    `distance` is that of their feet. A camera may fly between crowns, more than `CLEARING` above the ground.
+    """
+    clear: NDArray[np.bool_] = distance > CLEARING
+    near = np.flatnonzero(clear & (distance < CLEARING + TALLEST))
+    for part in _PARTS:
+        up = np.stack([np.zeros(len(near)), np.zeros(len(near)), part * height[near]], axis=-1)
+        clear[near] &= shot.visibility.distance(position[near] + up) > CLEARING
+    return clear
 
 
 class _Stems(NamedTuple):

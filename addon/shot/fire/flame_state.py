@@ -18,7 +18,8 @@ from . import flame_noise, flame_phase, flame_size
 
 FARTHEST = 9000.0  # m, bound of the distance from the front
 LEAST, LONGEST = 0.15, 75.0  # m, flame lengths
-TALLEST = 1.35  # length of the longest flames over the mean length (by eye)
+_TALL = 1.2  # length of tall flames over the mean length, without surges (by eye)
+TALLEST = _TALL * flame_noise.MOST_SURGE  # length of the longest flames over the mean length
 RAGGED = ((14.0, 3.5), (4.5, 1.2))  # m, sizes and shifts of the ragged edge of a crown fire's front (by eye)
 _UNEVEN = ((26.0, 0.8, 0.7), (9.0, 0.6, 0.2))
 """Sizes of the noise of the lengths' logarithm, m, and its strengths in low flames and in a crown fire, where
@@ -132,7 +133,7 @@ def unevenness(shot: Any, place: Array, even: Array) -> Array:
     clumps = flame_noise.clumping(shot, east[crowns], north[crowns])
     sparse = (1.0 - _BETWEEN) * (1.0 - noise.smoothstep(*flame_noise.CLUMPS, clumps))
     factor[crowns] *= 1.0 - crowded[crowns] * sparse
-    factor = np.minimum(factor, TALLEST)
+    factor = np.minimum(factor, _TALL) * flame_noise.surge_factor(east, north, even, seed)
     broken = np.flatnonzero(flame_noise.gap_fraction(even) > 0.0)
     margin = flame_noise.gap_margin(east[broken], north[broken], even[broken], scale, seed)
     factor[broken] *= noise.smoothstep(-0.06, 0.06, margin)

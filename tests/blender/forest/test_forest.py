@@ -166,6 +166,17 @@ def test_the_stand_grows_where_there_is_canopy_and_leaves_cameras_free(near_shot
     assert np.array_equal(grown.position, again.position)
 
 
+def test_no_crown_is_close_to_a_camera_between_crowns(near_settings, run):
+    """A camera 30 m up is more than `stand.CLEARING` from the feet of all trees."""
+    drone = near_settings.cameras[0].rig
+    raised = replace(drone, keys=tuple(replace(key, height=30.0) for key in drone.keys))
+    shot = Shot(replace(near_settings, cameras=(Camera("drone", raised),)), run)
+    grown = stand.grow(shot)
+    crowns = grown.position + np.stack(np.broadcast_arrays(0.0, 0.0, 0.8 * grown.height), axis=-1)
+    assert len(grown.position) > 100
+    assert shot.visibility.distance(crowns).min() > 0.9 * stand.CLEARING
+
+
 def test_a_satellite_that_sees_no_tree_sees_no_patch_of_them(near_settings, run, scene):
     """Trees drawn for another camera of the scene are hidden from it; one that sees trees sees all."""
     for swath, hidden in ((8000.0, True), (200.0, False)):
