@@ -62,6 +62,9 @@ _X = "Other files"
 RUN_YEARS = 1000, 9998
 """First and last year of the times of a run."""
 LIMITS.append(Limit(_X, "years of the times of a run", f"{RUN_YEARS[0]} to {RUN_YEARS[1]}", "refused"))
+RUN_HEIGHTS = -12_000, 10_000
+"""m; the Earth's surface has -10,935 m (Challenger Deep) to 8,849 m (Everest)."""
+LIMITS.append(Limit(_X, "elevation of a run, m", f"{RUN_HEIGHTS[0]:,} to {RUN_HEIGHTS[1]:,}", "refused"))
 TEXT_BYTES = _number(_X, "size of GeoJSON, KML, GPX and CSV, also within a KMZ", 1 << 28, "refused", "bytes")
 
 TEXT_VALUES = _number(_X, "numbers, lists and tags in such a file", 20_000_000, "refused")

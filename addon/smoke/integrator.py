@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from pathlib import Path
 from threading import Event
 from typing import Any
 
@@ -12,9 +13,9 @@ from firetwin_core import flow
 from numpy.typing import NDArray
 
 from .. import files
-from ..errors import writing
+from ..errors import Error, InputError, input_error, writing
 from ..progress import Progress
-from ..run import burning, sun
+from ..run import burning, sun, times
 from ..shot.fire.smoke_scale import FINER, Scale
 from ..shot.shot import Shot
 from . import atmosphere, cache, domains, snapshots
@@ -120,13 +121,35 @@ class Integrator:
         self.step = min(int(reached), len(self.steps)) - 1
 
     def advance(self, dt: float) -> None:
-        """Advance all domains by `dt` s."""
+        """Advance all domains by `dt` s.
+
+        Raises
+        ------
+        InputError
+            The air is too fast for the cells.
+        """
         self._update_sources()
         for number, solver in enumerate(self.solvers):
             count = 1 if number == 0 else _count(dt, self.scale)
-            solver.step(dt / count, count)
+            try:
+                solver.step(dt / count, count)
+            except Error:
+                raise self._fault(self.domains[number]) from None
         for drift in self.drifts:
             drift.advance()
+
+    def _fault(self, domain: Domain) -> InputError:
+        """Explain that the air of a domain is too fast for its cells, which heat does in calm air, too."""
+        run = self.shot.run
+        power = float(self.shot.fire.sources(self.now).power.sum())
+        wind = float(np.hypot(*self.winds[min(self.slot or 0, len(self.winds) - 1)]))
+        moment, cell = times.iso(times.utc(run, self.now)), domain.box.spacing
+        reason = (
+            f"the smoke's flow has no solution at {moment}: with {power / 1e9:,.3g} GW of fire in a wind of "
+            f"{wind:.3g} m/s, the air is too fast for cells of {cell:,.0f} m; check heat_flux at this time, "
+            'or set smoke.method = "preview" (wider cells) or smoke.enabled = false'
+        )
+        return input_error(Path(run.path), reason)
 
     def _start_nest(self) -> None:
         """Start the nest and the detail's drift when they are due."""

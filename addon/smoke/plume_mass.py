@@ -74,6 +74,9 @@ def describe(shot: Shot) -> str:
         for kind, share in zip(emissions.KINDS, mix.shares, strict=True)
         if share >= 0.005
     ]
+    fuel = shot.fire.fuel
+    if not (np.any(fuel.surface > 0.0) or np.any(fuel.canopy > 0.0)):
+        shares = ["its heat, as no fuel burns"]
     text = f"{_mass(plume.made)} of smoke in {_duration(shot)}, from {', '.join(shares)}"
     if plume.deepest is None:
         return text

@@ -18,6 +18,7 @@ import zipfile
 from pathlib import Path
 from types import ModuleType
 
+import numpy as np
 from firetwin_core.run import Run
 
 from ... import limits, plugins
@@ -49,6 +50,7 @@ def open(path: str | Path) -> Run:
             raise input_error(path, reason)
         found = folder.open(path) if folder.sniff(path) else opening.open(path)  # which reports errors
         _check_years(found)
+        _check_heights(found)
         return found
 
 
@@ -68,6 +70,25 @@ def _check_years(run: Run) -> None:
     if not all(first <= year <= last for year in years):
         reason = f"has times outside of the years {first} to {last}; correct start, interval_s or times_s"
         raise input_error(Path(run.path) / "run.toml", reason)
+
+
+def _check_heights(run: Run) -> None:
+    """Check that the elevation of a run is one of the Earth's surface.
+
+    Raises
+    ------
+    InputError
+        It is not.
+    """
+    low, high = limits.RUN_HEIGHTS
+    outside = np.argwhere((run.elevation < low) | (run.elevation > high))
+    if len(outside):
+        row, column = outside[0]
+        reason = (
+            f"has an elevation of {run.elevation[row, column]:,.6g} m in row {row + 1}, column {column + 1}, "
+            f"and {low:,} to {high:,} m are possible; write it in metres, and NaN where it is unknown"
+        )
+        raise input_error(Path(run.path) / "elevation", reason)
 
 
 def foreign(path: Path) -> bool:

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 import whole_run
-from firetwin.run import burning, info, released, run_warnings
+from firetwin.errors import InputError
+from firetwin.run import burning, info, readers, released, run_warnings
 from firetwin.run import opening as runs
 from firetwin.shot.fire import long_burning, smoke_scale
 from firetwin.shot.fire.fire import Fire
@@ -34,6 +35,23 @@ def test_gaps_of_heat_flux_are_counted_and_named(make):
 
 def test_a_run_without_gaps_has_no_warning(make):
     assert run_warnings.of_fire(make(16, [((8, 8), 5e4)])) == []
+
+
+@pytest.mark.parametrize("step", [1_000.0, 9_000.0])
+def test_a_step_that_no_cliff_has_is_named(make, step):
+    run = make(16, [((8, 8), 5e4)], height=lambda east, north: np.where(east > 0.0, step, 0.0))
+    found = run_warnings.of_fire(run)
+    assert len(found) == (step > run_warnings._CLIFF)
+    if found:
+        assert found[0].startswith("elevation has a step of 9,000 m between two cells at 38.89")
+        assert found[0] in info.gather(run, "UTC")["warnings"]
+
+
+@pytest.mark.parametrize("height", [1e6, -2e4, np.inf])
+def test_heights_that_the_earth_does_not_have_are_refused(make, height):
+    run = make(16, [], height=lambda east, north: np.where(east > 200.0, height, 100.0))
+    with pytest.raises(InputError, match=r"elevation: has an elevation of .* m in row 1, column 16, and"):
+        readers.open(run.path)
 
 
 @pytest.mark.parametrize("cells", [1, 2])
