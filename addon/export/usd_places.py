@@ -21,18 +21,11 @@ def write(content: SceneContent, out: Path, shot: Shot, places: list[Place]) -> 
     set_kind(stage.GetDefaultPrim(), "assembly")
     set_kind(UsdGeom.Xform.Define(stage, "/World/Stations").GetPrim(), "group")
     names = Identifiers()
-    for place, at in zip(places, positions(shot, places), strict=True):
+    for place in places:
+        at = shot.ground.point(place.latitude, place.longitude)[0]
         _define(stage, f"/World/Stations/{names.make(place.name)}", place, at)
     stage.GetRootLayer().Save()
     return path
-
-
-def positions(shot: Shot, places: list[Place]) -> np.ndarray:
-    """Return the positions (n, 3) of places on the ground of the scene, m."""
-    latitude, longitude = (np.array([getattr(p, key) for p in places]) for key in ("latitude", "longitude"))
-    flat = shot.local_frame.forward(latitude, longitude, np.zeros(len(places)))
-    height = shot.ground.up(*flat[:, :2].T)
-    return np.column_stack([flat[:, :2], height])
 
 
 def _define(stage: Any, path: str, place: Place, at: np.ndarray) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from firetwin.errors import Error
 from firetwin.export import read_scene, usd
+from firetwin.export.places import STATION, Place
 from firetwin.export.request import ExportRequest
 from firetwin.export.scene_content import SmokeLayer
 from firetwin.scene import build
@@ -20,6 +21,8 @@ from firetwin_core import volume
 bpy.utils.expose_bundled_modules()
 
 from pxr import Gf, Tf, Usd, UsdGeom, UsdShade, UsdUtils, UsdValidation, UsdVol  # noqa: E402
+
+from firetwin.export import usd_places  # noqa: E402
 
 FRAMES = (1, 2, 3)
 CORNER = (900.0, -400.0, 2100.0)  # m, centre of the first voxel
@@ -201,6 +204,18 @@ def test_the_place_on_the_earth_is_there_in_three_forms(exported):
     assert list(reference.Get()) == origin
     (target,) = world.GetRelationship("crs:binding").GetTargets()
     assert stage.GetPrimAtPath(target).GetAttribute("crs:wkt").Get() == place.wkt
+
+
+def test_a_distant_place_is_at_its_own_latitude_and_longitude(settings, run, tmp_path):
+    shot = Shot(settings, run)
+    frame = shot.local_frame
+    town = Place("Town", STATION, "town", frame.latitude + 0.2, frame.longitude - 0.2)
+    layer = usd_places.write(SimpleNamespace(rate=24.0), tmp_path, shot, [town])
+    stage = Usd.Stage.Open(str(layer))
+    at = UsdGeom.Xformable(stage.GetPrimAtPath("/World/Stations/Town")).GetLocalTransformation()
+    latitude, longitude, height = frame.reverse(np.array([at.ExtractTranslation()]))
+    np.testing.assert_allclose((latitude[0], longitude[0]), (town.latitude, town.longitude), atol=1e-8)
+    assert height[0] == pytest.approx(shot.ground.height(*shot.ground.indices(latitude, longitude))[0])
 
 
 def test_each_mesh_has_a_material_of_both_kinds(exported):
