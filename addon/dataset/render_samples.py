@@ -69,7 +69,7 @@ class _VisitScene:
             if self.source:
                 self.source.prepare([1])
         with self.cost.part("scene built"):
-            self.grown = stand.grow(self.shot) if self.shot.settings.forest.trees else None
+            self.grown = stand.grow(self.shot, in_film=False) if self.shot.settings.forest.trees else None
             self.stage: Stage = worker_scene.build_scene(self.shot, lambda *_: None, tell, self.grown)
             engine.check_working_space()
             self.renderer: SampleRenderer = SampleRenderer(self.shot, self.stage)

@@ -42,6 +42,7 @@ def run(request: ExportRequest) -> list[Path]:
 def in_blender(request: ExportRequest, progress: Progress, tell: MessageCallback) -> list[Path]:
     """Build the scene and write it; worker side. Returns the main files."""
     from ..jobs import worker_scene
+    from ..scene.forest import stand
     from . import read_scene
 
     request = replace(request, progress=progress, tell=tell)
@@ -53,7 +54,8 @@ def in_blender(request: ExportRequest, progress: Progress, tell: MessageCallback
         tell(text)
     wanted = request.smoke and shot.settings.smoke.enabled and formats.known()[request.name].has_smoke
     volumes = _write_volumes(request) if wanted else []
-    stage = worker_scene.build_scene(shot, progress, tell)
+    grown = stand.grow(shot, in_film=False) if shot.settings.forest.trees else None
+    stage = worker_scene.build_scene(shot, progress, tell, grown)
     return module.write_content(read_scene.read(shot, stage, request.frames, volumes), request)
 
 

@@ -1,4 +1,4 @@
-"""Stand of trees: hundreds per hectare near the cameras, fewer and wider ones far away.
+"""Stand of trees: hundreds per hectare near the cameras, fewer far away, and wider in films.
 
 The core generates the trees (`forest.stand`). This module decides the area and the retained fraction for a
 shot.
@@ -48,6 +48,8 @@ class Stand:
         (n,) metres from the nearest camera in any frame.
     radius
         Draw distance of trees, m.
+    complete
+        Distance up to which the trees cover as much as the forest, m.
     """
 
     position: NDArray[np.float64]
@@ -58,18 +60,26 @@ class Stand:
     key: NDArray[np.int64]
     distance: NDArray[np.float64]
     radius: float
+    complete: float = np.inf
 
     def coverage(self, distance: NDArray) -> NDArray[np.float64]:
         """Fraction 0..1 of the forest cover that trees represent at distances (m) from the cameras."""
-        return _fade(distance, self.radius)
+        return _fade(distance, self.radius) * _retained_at(distance, self.complete)
 
 
-def grow(shot: Shot) -> Stand:
-    """Generate the visible trees of the stand within `draw_distance`; none where the density is "paper"."""
+def grow(shot: Shot, in_film: bool = True) -> Stand:
+    """Generate the visible trees of the stand within `draw_distance`; none where the density is "paper".
+
+    Parameters
+    ----------
+    in_film
+        True if only the shot's cameras see the trees: crowns are widened by `forest.widening`.
+    """
     settings = shot.settings
     reach = settings.forest.draw_distance
     plots = plot.plots(shot, TALLEST, reach) if settings.forest.density == "stand" else []
-    stems = _planted(shot, plots)
+    widened = settings.forest.widening in ("always", "film" if in_film else "")
+    stems, complete = _planted(shot, plots, widened)
     planted = planted_rows.planted(shot, stems.position)
     position = visibility.settled(shot.ground, planted_rows.align(shot, stems.position, planted))
     key = np.stack([stems.key >> 32, stems.key & 0xFFFFFFFF], axis=-1)
@@ -101,6 +111,7 @@ def grow(shot: Shot) -> Stand:
         key[chosen],
         distance[chosen],
         reach if settings.forest.density == "stand" else 0.0,
+        complete,
     )
 
 
@@ -131,8 +142,9 @@ class _Stems(NamedTuple):
     key: NDArray[np.int64]
 
 
-def _planted(shot: Shot, plots: list[Plot]) -> _Stems:
-    """Stems of all plots."""
+def _planted(shot: Shot, plots: list[Plot], widened: bool) -> tuple[_Stems, float]:
+    """Stems of all plots, and the distance up to which they cover as much as the forest, m."""
+    retained, full = _retained(shot, plots)
     planted = [
         core.stand(
             each.canopy_fuel,
@@ -144,14 +156,17 @@ def _planted(shot: Shot, plots: list[Plot]) -> _Stems:
             retained=kept,
             mask=each.mask,
         )
-        for each, kept in zip(plots, _retained(shot, plots), strict=True)
+        for each, kept in zip(plots, retained, strict=True)
     ]
     whole, number = np.empty(0, np.uint8), np.empty(0, np.float32)
     nothing = _Stems(np.empty((0, 3)), whole, whole, number, number, number, np.empty(0, np.int64))
     fields = (
         [getattr(nothing, name), *(getattr(stems, name) for stems in planted)] for name in _Stems._fields
     )
-    return _Stems(*(np.concatenate(parts) for parts in fields))
+    stems = _Stems(*(np.concatenate(parts) for parts in fields))
+    if widened:
+        return stems, np.inf
+    return stems._replace(width=np.ones_like(stems.width)), full / shot.pixel[0]
 
 
 def _fade(distance: NDArray, reach: float) -> NDArray[np.float64]:
@@ -159,14 +174,14 @@ def _fade(distance: NDArray, reach: float) -> NDArray[np.float64]:
     return noise.smoothstep(reach, 0.75 * reach, distance) if reach > 0.0 else np.zeros_like(distance)
 
 
-def _retained(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
-    """Compute fractions (fy, fx) of stems to retain: 1 for small pixels, falling with projected area.
+def _retained(shot: Shot, plots: list[Plot]) -> tuple[list[NDArray[np.float32]], float]:
+    """Compute fractions (fy, fx) of stems to retain, and the pixel size (m) up to which they are 1.
 
     The pixel size at a point is the size for the sharpest camera at the distance of the nearest. All trees
     are retained if a pixel is smaller than a crown, or than the size at which `forest.budget` trees remain.
     """
     if shot.visibility.unculled:
-        return [np.ones(each.mask.shape, np.float32) for each in plots]
+        return [np.ones(each.mask.shape, np.float32) for each in plots], np.inf
     budget, reach = shot.settings.forest.budget, shot.settings.forest.draw_distance
     near, parallel = shot.pixel
     # Neighbouring cells as well: the retained fraction is bilinear between cell centres.
@@ -190,11 +205,11 @@ def _retained(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     for each, beside, pixel in zip(plots, besides, pixels, strict=True):
         made.append(np.ones(each.mask.shape, np.float32))
         made[-1][beside] = _retained_at(pixel, high)
-    return made
+    return made, high
 
 
 def _retained_at(pixel: NDArray[np.float64], full: float) -> NDArray[np.float64]:
-    """Fraction of the stems to retain where pixels have this size (m): 1 up to `full`."""
+    """Fraction of the stems to retain where pixels have this size (m): 1 up to `full`, then by area."""
     return np.minimum((full / np.maximum(pixel, 1.0e-6)) ** 2, 1.0)
 
 

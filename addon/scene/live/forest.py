@@ -63,7 +63,7 @@ def build(
 
 def grow(shot: Shot) -> stand.Stand | None:
     """Return the film's trees; None if it has none."""
-    return stand.grow(shot) if shot.settings.forest.trees else None
+    return stand.grow(shot, in_film=False) if shot.settings.forest.trees else None
 
 
 def choose(away: NDArray[np.float64], budget: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:

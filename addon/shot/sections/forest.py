@@ -48,9 +48,20 @@ class Forest:
     )
     budget: int = key(
         200_000,
-        "approximate limit on trees in a stand; distant trees are fewer and wider",
+        "approximate limit on trees in a stand; distant trees are fewer",
         at_least=1,
         at_most=10_000_000,
+        affects=("terrain", "forest"),
+    )
+    widening: str = key(
+        "film",
+        "distant trees are wider",
+        choices={
+            "film": "in films",
+            "always": "in exports too",
+            "never": "true width",
+        },
+        affects=("terrain", "forest"),
     )
     understorey: int = key(
         40_000,

@@ -10,19 +10,20 @@ import mathutils
 import numpy as np
 import pytest
 from firetwin.errors import Error
-from firetwin.export import read_scene, usd
+from firetwin.export import read_scene, scene_job, usd
 from firetwin.export.places import STATION, Place
 from firetwin.export.request import ExportRequest
 from firetwin.export.scene_content import SmokeLayer
+from firetwin.jobs import worker_scene
+from firetwin.progress import no_message, silent
 from firetwin.scene import build
 from firetwin.shot.shot import Shot
 from firetwin_core import volume
 
 bpy.utils.expose_bundled_modules()
 
-from pxr import Gf, Tf, Usd, UsdGeom, UsdShade, UsdUtils, UsdValidation, UsdVol  # noqa: E402
-
 from firetwin.export import usd_places  # noqa: E402
+from pxr import Gf, Tf, Usd, UsdGeom, UsdShade, UsdUtils, UsdValidation, UsdVol  # noqa: E402
 
 FRAMES = (1, 2, 3)
 CORNER = (900.0, -400.0, 2100.0)  # m, centre of the first voxel
@@ -216,6 +217,18 @@ def test_a_distant_place_is_at_its_own_latitude_and_longitude(settings, run, tmp
     latitude, longitude, height = frame.reverse(np.array([at.ExtractTranslation()]))
     np.testing.assert_allclose((latitude[0], longitude[0]), (town.latitude, town.longitude), atol=1e-8)
     assert height[0] == pytest.approx(shot.ground.height(*shot.ground.indices(latitude, longitude))[0])
+
+
+def test_distant_trees_of_an_export_have_their_true_width(near_settings, run, tmp_path, monkeypatch):
+    shot = Shot(replace(near_settings, forest=replace(near_settings.forest, budget=1000)), run)
+    built = []
+    monkeypatch.setattr(worker_scene, "build_scene", lambda *arguments: built.append(arguments[-1]))
+    monkeypatch.setattr(read_scene, "read", lambda *_: None)
+    monkeypatch.setattr(usd, "write_content", lambda *_: [])
+    request = ExportRequest(SimpleNamespace(shot=lambda: shot), "usd", tmp_path, smoke=False)
+    scene_job.in_blender(request, silent, no_message)
+    assert len(built[0].width) > 100
+    assert (built[0].width == 1.0).all()
 
 
 def test_each_mesh_has_a_material_of_both_kinds(exported):

@@ -95,10 +95,24 @@ def test_far_trees_are_fewer_and_wider_and_about_the_budget(near_settings, run):
     assert few.width.mean() > 1.2 * many.width.mean()
 
 
+@pytest.mark.parametrize(
+    ("widening", "in_film", "outside"), [("film", 1, 0), ("always", 1, 1), ("never", 0, 0)]
+)
+def test_crowns_are_widened_where_the_setting_says(near_settings, run, widening, in_film, outside):
+    chosen = replace(near_settings.forest, budget=1000, widening=widening)
+    shot = Shot(replace(near_settings, forest=chosen), run)
+    for grown, wide in ((stand.grow(shot), in_film), (stand.grow(shot, in_film=False), outside)):
+        assert (grown.width.max() > 1.5) == wide
+        assert wide or (grown.width == 1.0).all()
+        far, near = np.array([0.7 * grown.radius]), np.array([20.0])
+        assert grown.coverage(near) == 1.0
+        assert (grown.coverage(far) == 1.0) == wide  # else the ground's colour shows the omitted trees
+
+
 def test_what_is_kept_goes_on_beside_what_is_seen(near_settings, run):
     shot = Shot(replace(near_settings, forest=replace(near_settings.forest, budget=200)), run)
     (own,) = plot.plots(shot, stand.TALLEST, shot.settings.forest.draw_distance)
-    mask, (kept,) = own.mask, stand._retained(shot, [own])
+    mask, ((kept,), _) = own.mask, stand._retained(shot, [own])
     beside = np.lib.stride_tricks.sliding_window_view(np.pad(mask, 1), (3, 3)).any((2, 3)) & ~mask
     assert 0 < mask.sum() < mask.size
     assert kept[mask].max() < 1.0
