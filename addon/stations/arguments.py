@@ -208,9 +208,13 @@ def _seed(text: str) -> int:
 
 def _day(text: str) -> str:
     try:
-        return date.fromisoformat(text).isoformat()
+        day = date.fromisoformat(text)
     except ValueError:
         raise argparse.ArgumentTypeError(f"must be a day such as 2026-11-25, not {text!r}") from None
+    first, last = limits.RUN_YEARS
+    if not first <= day.year <= last:
+        raise argparse.ArgumentTypeError(f"must be in the years {first} to {last}, not {text!r}")
+    return day.isoformat()
 
 
 def _column(text: str) -> tuple[str, str]:

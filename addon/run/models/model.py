@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import limits
 from ...errors import UsageError
 from .. import zone
 from .grid import Grid
@@ -152,6 +153,9 @@ def _moment(text: str) -> datetime:
         moment = datetime.fromisoformat(text)
     except ValueError:
         raise UsageError(f"--start: {text!r} is not a date and time such as 2014-09-17T04:45:00Z") from None
+    first, last = limits.RUN_YEARS
+    if not first <= moment.year <= last:
+        raise UsageError(f"--start: {text!r} is not in the years {first} to {last}; correct it")
     return moment.astimezone(UTC) if moment.tzinfo else moment.replace(tzinfo=UTC)
 
 

@@ -10,6 +10,7 @@ from dataclasses import replace
 from datetime import datetime
 from types import SimpleNamespace
 
+import doors
 import numpy as np
 import pytest
 from firetwin import cli
@@ -50,6 +51,29 @@ def test_help_names_every_command():
     assert result.returncode == 0
     assert all(f"    {name}  " in result.stdout for name in COMMANDS)
     assert result.stderr == ""
+
+
+TIMES = [
+    (name, action.option_strings[-1], action.nargs or 1)
+    for name, parser in doors.verbs().items()
+    for action in parser._actions
+    if action.metavar in ("TIME", "DAY")
+]
+
+
+@pytest.mark.parametrize("text", ["0001-01-01T00:00+14:00", "9999-12-31T23:59-12:00"])
+@pytest.mark.parametrize(("name", "option", "count"), TIMES)
+def test_each_time_of_a_command_is_in_the_years_of_runs(name, option, count, text, tmp_path):
+    (tmp_path / "model").mkdir()
+    (tmp_path / "model" / "fire.nc").touch()
+    text = text[:10] if name == "stations import" else text
+    full = ["model", "--out", "out"] if name in ("convert", "watch") else []
+    result = firetwin(*name.split(), *full, option, *[text] * count, cwd=tmp_path)
+    *_, last = result.stderr.splitlines()
+    assert result.returncode == 2
+    assert last.startswith("firetwin")
+    assert text in last
+    assert "in the years 1000 to 9998" in last
 
 
 def test_help_and_mistakes_load_nothing_heavy():
