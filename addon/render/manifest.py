@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Mapping
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from .. import files
+from .. import files, limits
 from ..database import BROKEN
 from ..errors import input_error, refuse_odd
 from ..imaging.credits import Credits
@@ -52,7 +53,7 @@ def read(out: Path) -> dict[str, Any]:
 def _wrong_value(table: dict[str, Any], checks: Mapping[str, Callable[[Any], bool]]) -> str:
     """Return the keys of the first value of another type or range; empty if all are valid."""
     for name, entry in table.items():
-        if not isinstance(entry, dict):
+        if not isinstance(entry, dict) or not _is_text(name):
             return f".{name[:_LONGEST]!r}"
         for key in entry.keys() & checks.keys():
             if not checks[key](entry[key]):
@@ -61,7 +62,19 @@ def _wrong_value(table: dict[str, Any], checks: Mapping[str, Callable[[Any], boo
 
 
 def _is_text(value: Any) -> bool:
-    return isinstance(value, str)
+    """Check for a text that may be a path, or stand in a page."""
+    try:
+        return b"\0" not in value.encode()
+    except (AttributeError, UnicodeEncodeError):
+        return False
+
+
+def _is_time(value: Any) -> bool:
+    first, last = limits.RUN_YEARS
+    try:
+        return first - 1 <= datetime.fromisoformat(value).astimezone(UTC).year <= last + 1
+    except (TypeError, ValueError, OverflowError):
+        return False
 
 
 def _is_count(value: Any) -> bool:
@@ -69,11 +82,11 @@ def _is_count(value: Any) -> bool:
 
 
 def _is_texts(value: Any) -> bool:
-    return isinstance(value, list) and all(map(_is_text, value))
+    return isinstance(value, list) and all(isinstance(each, str) for each in value)
 
 
 def _is_table_of_texts(value: Any) -> bool:
-    return isinstance(value, dict) and all(map(_is_text, value.values()))
+    return isinstance(value, dict) and all(map(_is_text, [*value, *value.values()]))
 
 
 def _is_credits(value: Any) -> bool:
@@ -86,8 +99,9 @@ def _is_frames(value: Any) -> bool:
 
 
 _OF_FILES: dict[str, Callable[[Any], bool]] = {
-    **dict.fromkeys(("camera", "pass", "time", "clock", "settings", "film", "sha256"), _is_text),
+    **dict.fromkeys(("camera", "pass", "clock", "settings", "film", "sha256"), _is_text),
     **dict.fromkeys(("credits", "services", "missing_tiles"), _is_texts),
+    "time": _is_time,
     "bytes": _is_count,
     "slate_frames": _is_count,
     "frame": lambda value: value is None or _is_count(value),
