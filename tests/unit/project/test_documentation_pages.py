@@ -37,6 +37,13 @@ def test_the_start_page_is_short():
     assert len(text.split()) <= 1000
 
 
+def test_the_start_pages_name_the_page_of_each_kind_of_reader():
+    readers = {"brief", "datasets", "delivery", "export", "forecasts", "walk"}
+    for page, place in ((ROOT / "README.md", "docs/"), (DOCS / "index.md", "")):
+        text = page.read_text("utf-8")
+        assert not [name for name in readers if f"({place}{name}.md)" not in text], page
+
+
 def test_the_start_pages_pictures_are_small():
     links = re.findall(r"!\[.+?\]\((.+?)\)", (ROOT / "README.md").read_text("utf-8"))
     sizes = {link: (ROOT / link).stat().st_size for link in links}
