@@ -59,7 +59,8 @@ def write(
             delivered[_copy(each, part, path.name)] = each
         progress(len(chosen.files), len(chosen.files), "copying")
         _list(part, number, delivered)
-    with writing(out / LATEST):
+    with writing(out / LATEST), staging.locked(out, wait=True):
+        _remove_rests(out)
         _point(out, _folder(max(_numbers(out))), overwrite)
     return path
 
@@ -125,6 +126,14 @@ def _check_latest(out: Path, overwrite: bool) -> None:
             raise input_error(link, f"is a link that firetwin deliver did not write; {output.REMEDY}")
     elif link.exists():
         output.check(out / f"{LATEST}.txt", overwrite)
+
+
+def _remove_rests(out: Path) -> None:
+    """Remove temporary links and files of `latest` that killed processes left; the folder is locked."""
+    for each in out.iterdir():
+        if re.fullmatch(rf"\.{LATEST}\.[0-9a-f]{{12}}\.part(\.txt)?", each.name):
+            with contextlib.suppress(OSError):
+                each.unlink()
 
 
 def _point(out: Path, version: str, overwrite: bool) -> None:

@@ -172,6 +172,26 @@ def test_two_deliveries_at_once_get_two_numbers(finished, tmp_path):
         assert len(list(each.rglob("*.exr"))) == 9
 
 
+def test_deliveries_of_processes_get_numbers_of_their_own_and_remove_rests(finished, tmp_path):
+    chosen, out = names.choose(finished, PATTERN, 1001), tmp_path / "delivered"
+    (out / ".v001.0123456789ab.part").mkdir(parents=True)
+    (out / ".latest.0123456789ab.part").symlink_to("v001")
+    (out / ".latest.0123456789ab.part.txt").touch()
+    children = []
+    for _ in range(3):
+        children.append(os.fork())
+        if children[-1] == 0:
+            try:
+                version.write(out, chosen)
+            finally:
+                os._exit(0)
+    for child in children:
+        os.waitpid(child, 0)
+    assert sorted(path.name for path in out.iterdir()) == ["latest", "v001", "v002", "v003"]
+    assert os.readlink(out / "latest") == "v003"
+    assert len({len([*each.rglob("*")]) for each in out.glob("v*")}) == 1
+
+
 def test_a_link_latest_of_others_stays(finished, tmp_path):
     out, mine = tmp_path / "delivered", tmp_path / "mine"
     out.mkdir()
