@@ -23,7 +23,7 @@ def _add(parser: argparse.ArgumentParser) -> None:
         "--pattern",
         metavar="TEXT",
         default=PATTERN,
-        help="file names, of {camera}, {pass}, {version}, {frame} and {ext} (%(default)s)",
+        help="names in DIR/v001, of {camera}, {pass}, {version}, {frame} and {ext} (%(default)s)",
     )
     parser.add_argument(
         "--start", metavar="N", type=types.count, default=1001, help="number of the first frame (1001)"

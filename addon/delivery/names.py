@@ -93,7 +93,7 @@ def choose(out: Path, pattern: str, start: int) -> Selection:
     Raises
     ------
     InputError
-        The folder has no finished files, or its manifest has values that cannot be part of a file name.
+        The folder has no finished frames, or its manifest has values that cannot be part of a file name.
     UsageError
         The pattern gives two files the same name.
     """
@@ -116,6 +116,8 @@ def choose(out: Path, pattern: str, start: int) -> Selection:
         )
     if not chosen:
         raise input_error(out, "has no finished pictures or films; name a folder of firetwin render --out")
+    if all(each.facts.get("frame") is None for each in chosen):
+        raise input_error(out, "has films and none of their frames; run firetwin render --resume for them")
     names: dict[str, File] = {}
     for each in chosen:
         if (other := names.setdefault(each.pattern.lower(), each)) is not each:

@@ -43,7 +43,7 @@ def _run(arguments: argparse.Namespace) -> None:
     UsageError
         There is no such pass.
     """
-    from .. import output
+    from .. import output, timecode
     from ..auto_framing import fitted_scene
     from ..did_you_mean import suggestion
     from ..errors import UsageError
@@ -61,10 +61,15 @@ def _run(arguments: argparse.Namespace) -> None:
     if arguments.name not in known:
         hint = suggestion(arguments.name, known)
         raise UsageError(f'--pass: "{arguments.name}" is not one of {", ".join(known)}{hint}')
+    rate = shot.settings.time.rate
+    if timecode.nominal_rate(rate) not in edl.RATES:
+        del formats[".edl"]
+        reason = f"an EDL has no timecode at {timecode.format_rate(rate)} frames per second"
+        say(f"left out {STEM}.edl: {reason}; use {STEM}.otio or {STEM}.xml, or set [time] fps = 24")
     films_of_cameras = media.films(shot, arguments.name, arguments.film or arguments.out, arguments.out)
     edit = cut.Edit(
         escaped(shot.settings.path.stem),
-        shot.settings.time.rate,
+        rate,
         tuple(films_of_cameras),
         tuple(cut.cut(films_of_cameras)),
         tuple(markers.find(shot)),

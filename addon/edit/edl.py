@@ -13,6 +13,9 @@ from urllib.parse import unquote
 from .. import timecode
 from .cut import Clip, Edit, Marker
 
+RATES = frozenset({24, 25, 30, 48, 50, 60})
+"""Nominal frame rates with a timecode (SMPTE ST 12-1, ST 12-3) that other programs read in an EDL."""
+
 _REEL = 8  # characters
 _RESERVED = frozenset({"AX", "BL", "BLACK", "BARS"})
 

@@ -15,6 +15,8 @@ channels                              content
 `thermal.kelvin`, `thermal.radiance`  as in `thermal`
 ===================================== ==================================================================
 
+Normals are of one ray through the pixel's centre, and noisy in foliage (see `normal`).
+
 Motion is computed from the camera before a static scene: smoke, flames and firebrands have none. The first
 frame has no backward motion, and the last no forward motion.
 

@@ -2,6 +2,11 @@
 
 Flames and smoke are excluded, as they have no surface. One ray goes through each pixel's centre. The sky is
 0. It is the mesh normal, without bump maps of materials.
+
+Normals are not averaged over the pixel. In foliage, whose leaves are smaller than a pixel, neighbouring
+pixels have unrelated normals, and these change from frame to frame as the camera moves: relighting by them
+flickers there. A mean of such normals is not the normal of any surface. Ground, buildings and near trunks
+are smooth.
 """
 
 from __future__ import annotations

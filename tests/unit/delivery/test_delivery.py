@@ -3,7 +3,9 @@
 import contextlib
 import json
 import os
+import re
 import subprocess
+from pathlib import Path
 
 import fileseq
 import pytest
@@ -234,6 +236,25 @@ def test_missing_files_are_named_and_an_empty_folder_is_refused(finished, tmp_pa
     ]
     with pytest.raises(InputError, match="has no finished pictures or films"):
         names.choose(tmp_path / "none", PATTERN, 1)
+
+
+def test_films_without_a_frame_are_refused_in_one_line(finished, tmp_path, capsys):
+    for path in finished.rglob("*_00000?.*"):
+        path.unlink()
+    assert deliver(finished, "--out", tmp_path / "delivered") == 1
+    assert capsys.readouterr().err.splitlines() == [
+        f"firetwin: {finished}: has films and none of their frames; run firetwin render --resume for them"
+    ]
+    assert not (tmp_path / "delivered").exists()
+
+
+def test_the_pattern_of_the_page_names_the_version_once_in_folders(finished, tmp_path):
+    page = (Path(__file__).parents[3] / "docs/delivery.md").read_text()
+    (pattern,) = {each for each in re.findall(r"`(\S+\{frame\}\.\{ext\})`", page) if "{version}" in each}
+    assert deliver(finished, "--out", tmp_path, "--pattern", pattern) == 0
+    delivered = [path.relative_to(tmp_path) for path in (tmp_path / "v001").rglob("*_v001.1001.exr")]
+    assert len(delivered) == len(VIEWS)
+    assert all(path.parts.count("v001") == 1 for path in delivered)
 
 
 def test_a_file_that_its_exr_names_keeps_its_name(tmp_path):

@@ -204,6 +204,16 @@ def test_xml_and_edl_give_the_same_cut(rendered, tmp_path, fps, rate):
         assert [(m.name, round(m.marked_range.start_time.value) - start) for m in found] == marks
 
 
+def test_a_rate_without_timecode_has_no_edl(rendered, tmp_path, capsys):
+    out = tmp_path / "my film"
+    assert cli.main(["edit", str(rendered("12", "12")), "--out", str(out)]) == 0
+    (line,) = (line for line in capsys.readouterr().err.splitlines() if "film.edl" in line)
+    assert "at 12 frames per second; use film.otio or film.xml, or set [time] fps = 24" in line
+    assert not (out / "film.edl").exists()
+    whole = otio.adapters.read_from_file(str(out / "film.otio"))
+    assert media(whole) == media(otio.adapters.read_from_file(str(out / "film.xml"), "fcp_xml"))
+
+
 def test_markers_are_at_the_times_of_their_events(rendered, tmp_path):
     """Heat peaks at the last time, 120 s, and the fire reaches Here, a cell that burns after 60 s."""
     out = tmp_path / "my film"
