@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import bpy
 
+from ..blender import stored_json
 from ..blender.owned import Stage
 from ..imaging.credits import Credits
 
@@ -21,11 +23,18 @@ def store(collection: bpy.types.Collection, credits: Credits) -> None:
         del collection[PROPERTY]
 
 
+def _parse(text: Any) -> Credits:
+    """Parse stored credits; none if the text is not as `store` writes it."""
+    lists = stored_json.parse(text)
+    if not isinstance(lists, list) or len(lists) != 2 or not all(isinstance(each, list) for each in lists):
+        return Credits()
+    return Credits(*(tuple(text for text in each if isinstance(text, str)) for each in lists))
+
+
 def read_scene(stage: Stage) -> Credits:
     """Read the credits of a scene, including one opened from a file."""
     found = Credits()
     for part in stage.root.children:
         if PROPERTY in part and part.all_objects:
-            data, logo = json.loads(part[PROPERTY])
-            found = found.merge(Credits(tuple(data), tuple(logo)))
+            found = found.merge(_parse(part[PROPERTY]))
     return found

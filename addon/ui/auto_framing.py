@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ..blender import owned
+from ..blender import owned, stored_json
 from ..shot.schema import fields, plain
 from ..shot.sections import Time
 from ..shot.settings import Settings
@@ -96,12 +96,12 @@ def framing_messages(panel: bpy.types.PropertyGroup) -> list[str]:
 @functools.lru_cache(maxsize=8)
 def _parse_messages(usual: str) -> tuple[list[str], list[str]]:
     """Return messages, and names of the cameras, cached for drawing."""
-    kept = json.loads(usual or "{}")
+    kept = stored_json.table(usual)
     return kept.get("lines", []), [each.name for each in camera_list.from_text(kept.get("cameras", ""))]
 
 
 def _automatic_framing(panel: bpy.types.PropertyGroup) -> dict[str, Any]:
-    return json.loads(panel.usual or "{}")
+    return stored_json.table(panel.usual)
 
 
 def _time_settings(panel: bpy.types.PropertyGroup) -> Time:

@@ -11,6 +11,7 @@ import json
 
 import bpy
 
+from ..blender import stored_json
 from ..shot.schema import Field, fields
 from ..shot.settings import Settings
 from . import keys
@@ -49,7 +50,7 @@ def store_digests(panel: bpy.types.PropertyGroup, then: dict[str, str], built: t
     if set(built) > set(ALONE):
         panel.built = json.dumps(then)
     else:
-        kept = json.loads(panel.built or "{}")
+        kept = stored_json.table(panel.built)
         panel.built = json.dumps(kept | {name: then[name] for name in built if name in ALONE})
     compare(panel)
 
@@ -63,7 +64,7 @@ def compare(panel: bpy.types.PropertyGroup) -> None:
     """Store the names of sections that differ from the build."""
     if not panel.built:
         return
-    built, now = json.loads(panel.built), compute_digests(panel)
+    built, now = stored_json.table(panel.built), compute_digests(panel)
     panel.changed = " ".join(name for name, digest in now.items() if built.get(name, digest) != digest)
 
 

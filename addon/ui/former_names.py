@@ -14,9 +14,8 @@ from typing import Any
 import bpy
 
 from .. import progress
-from ..blender import compat, owned
+from ..blender import compat, owned, stored_json
 from ..shot.schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, REMOVED, current
-from . import keys
 
 
 @bpy.app.handlers.persistent
@@ -43,7 +42,7 @@ def migrate(*_: object) -> None:
                 kept[name] = kept[former]
                 del kept[former]
                 renamed.append(f"{section}.{former} is called {section}.{name} now")
-            exact = keys.parse_exact(kept.get("exact"))
+            exact = stored_json.table(kept.get("exact"))
             if former in exact:
                 kept["exact"] = json.dumps(exact | {name: exact.pop(former)})
         _store_as_float(_section(stored.get("time")), "fps")

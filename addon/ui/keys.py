@@ -16,6 +16,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..blender import stored_json
 from ..errors import Error
 from ..shot.schema import Field, Key, fields, plain
 from ..shot.schema.frame_list import FrameList
@@ -97,18 +98,9 @@ def sentence(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def parse_exact(text: Any) -> dict[str, Any]:
-    """Parse the exact values of a group; none if the text is not as `put` writes it."""
-    try:
-        exact = json.loads(text or "{}")
-    except (TypeError, ValueError, RecursionError):
-        return {}
-    return exact if isinstance(exact, dict) else {}
-
-
 def put(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
     """Set a group's property to a value of the key."""
-    exact = parse_exact(group.exact)
+    exact = stored_json.table(group.exact)
     exact.pop(part.name, None)
     _show(group, part, value)
     if take(group, part, {}) != value:
@@ -124,7 +116,7 @@ def take(group: bpy.types.PropertyGroup, part: Field, exact: dict[str, Any] | No
     Error
         A typed text is not a valid value.
     """
-    exact = parse_exact(group.exact) if exact is None else exact
+    exact = stored_json.table(group.exact) if exact is None else exact
     kept = _restore(part, exact[part.name]) if part.name in exact else _ABSENT
     same = kept is not _ABSENT and stored_value(group, part) == _stored_as(part, kept)
     return kept if same else _value(group, part)

@@ -9,7 +9,7 @@ from typing import Any
 
 import bpy
 
-from ...blender import compat, owned
+from ...blender import compat, owned, stored_json
 
 POSE = ("location", "rotation_quaternion", "rotation_euler", "rotation_axis_angle", "scale")
 LENS = ("lens", "sensor_width", "sensor_height", "ortho_scale")
@@ -26,7 +26,7 @@ def changed_parts(obj: bpy.types.Object) -> set[str]:
     """Return which of "name", "pose" and "lens" an artist has changed since an object was built."""
     if _MADE not in obj:
         return set()
-    before, now = json.loads(obj[_MADE]), _part_hashes(obj)
+    before, now = stored_json.table(obj[_MADE]), _part_hashes(obj)
     return {part for part in now if now[part] != before.get(part)}
 
 
