@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from .. import files
-from ..errors import Error, UsageError
+from ..errors import Error, UsageError, input_error
 from ..jobs.worker import Stop, StoppedError
 from ..progress import MessageCallback, Progress, count, no_message, silent
 from ..render.picture import Picture
@@ -59,9 +59,22 @@ def prepare(out: Path, chosen: Submission, numbers: Iterable[int] | None = None)
 
 
 def last_submission(out: Path) -> Submission:
-    """Read scheduler and options of the last submission."""
-    found = json.loads((plan.job_dir(out) / _FILE).read_text(encoding="utf-8"))
-    return Submission(found["engine"], tuple(found["options"]))
+    """Read scheduler and options of the last submission.
+
+    Raises
+    ------
+    InputError
+        The file is missing or damaged.
+    """
+    path = plan.job_dir(out) / _FILE
+    try:
+        found = files.read_json(path)
+        chosen = Submission(found["engine"], tuple(found["options"]))
+        if chosen.engine in known() and all(isinstance(each, str) for each in chosen.options):
+            return chosen
+    except (OSError, ValueError, TypeError, LookupError):
+        pass
+    raise input_error(path, "is not the submission of a job; plan the job again")
 
 
 def find_missing(out: Path, progress: Progress = silent) -> tuple[dict[Picture, str], list[int]]:

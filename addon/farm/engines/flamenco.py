@@ -88,7 +88,7 @@ class Flamenco(Engine):
         if not jobs.exists():
             raise UsageError(f"{out}: no job was submitted to Flamenco from this folder")
         asked = json.dumps({"status": "cancel-requested", "reason": "firetwin farm cancel"})
-        address = f"{jobs.read_text('utf-8').strip()}/setstatus"
+        address = f"{files.read_text(jobs).strip()}/setstatus"
         return ["curl", "-fsS", "-H", "Content-Type: application/json", "--data", asked, address]
 
 

@@ -78,7 +78,7 @@ class HTCondor(Engine):
     def cancel(self, out: Path) -> list[str]:
         """Return the command that removes the last submitted DAG with its nodes."""
         jobs = self.folder(out) / "jobs.txt"
-        found = jobs.read_text("utf-8").split() if jobs.exists() else []
+        found = files.read_text(jobs).split() if jobs.exists() else []
         if not found:
             raise UsageError(f"{out}: no job was submitted to HTCondor from this folder")
         return ["condor_rm", *found]

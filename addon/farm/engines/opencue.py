@@ -71,7 +71,7 @@ class OpenCue(Engine):
         jobs = self.folder(out) / "jobs.txt"
         if not jobs.exists():
             raise UsageError(f"{out}: no job was launched on OpenCue from this folder")
-        return ["cueadmin", "-force", "-kill", *jobs.read_text("utf-8").split()]
+        return ["cueadmin", "-force", "-kill", *files.read_text(jobs).split()]
 
 
 def _job_name(batch: Batch) -> str:

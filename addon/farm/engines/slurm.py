@@ -102,7 +102,7 @@ class Slurm(Engine):
     def cancel(self, out: Path) -> list[str]:
         """Return the command that cancels the last submitted jobs."""
         ids = self.folder(out) / "jobs.txt"
-        found = ids.read_text("utf-8").split() if ids.exists() else []
+        found = files.read_text(ids).split() if ids.exists() else []
         if not found:
             raise UsageError(f"{out}: no job was submitted to Slurm from this folder")
         return ["scancel", *found]

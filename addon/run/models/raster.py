@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import warnings
 from dataclasses import dataclass
@@ -13,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError, input_error, reading
-from ...limits import UNPACKED_BYTES
+from ...files import read_text
+from ...limits import SETTINGS_BYTES, UNPACKED_BYTES
 from . import heartbeat, optional_packages
 from .grid import Grid, project
 
@@ -281,10 +283,11 @@ def _mask_no_data(values: NDArray[np.float32]) -> NDArray[np.float32]:
 
 def _prj(path: Path) -> str:
     """Read the projection from a .prj file of the same name; empty without one."""
-    try:
-        return path.with_suffix(".prj").read_text(errors="replace").strip()
-    except OSError:
+    projection = path.with_suffix(".prj")
+    if not os.path.lexists(projection):
         return ""
+    with reading(projection):
+        return read_text(projection, errors="replace", most=SETTINGS_BYTES).strip()
 
 
 def landscape(path: Path) -> dict[str, Raster]:

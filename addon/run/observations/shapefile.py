@@ -10,6 +10,8 @@ import numpy as np
 
 from ... import extras
 from ...errors import input_error
+from ...files import read_text
+from ...limits import SETTINGS_BYTES
 from .feature import Feature, Polygon, degrees, ring
 from .projection import to_degrees
 
@@ -31,7 +33,7 @@ def read(path: Path) -> list[Feature]:
         reason = f"shapefiles need pyshp: {extras.install('score')}; or save it as GeoJSON"
         raise input_error(path, reason) from None
     try:
-        system = path.with_suffix(".prj").read_text(encoding="utf-8", errors="replace").strip()
+        system = read_text(path.with_suffix(".prj"), errors="replace", most=SETTINGS_BYTES).strip()
     except OSError:
         reason = "has no .prj, which gives its reference system; add it"
         raise input_error(path, reason) from None

@@ -21,9 +21,10 @@ from firetwin import memory
 from firetwin.dataset import finish, truth
 from firetwin.errors import Error
 from firetwin.escaped import escaped
+from firetwin.farm import submission
 from firetwin.growing import model_log, watched
 from firetwin.render import manifest
-from firetwin.run.models import grib2
+from firetwin.run.models import grib2, raster
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forks, and limits the memory")
 
@@ -61,6 +62,9 @@ MORE = {
     "model's log": (model_log.NAME, lambda path: model_log.read(path.parent)),
     "times of a watch": (watched.TIMES, lambda path: watched.times(path.parent)),
     "state of a watch": (watched.STATUS, lambda path: watched.status(path.parent)),
+    "projection of a shapefile": ("a.prj", READERS["shapefile"][0]),
+    "projection of a raster": ("a.prj", lambda path: raster._prj(path)),
+    "submission": ("farm/submitted.json", lambda path: submission.last_submission(path.parents[1])),
     "forecast": ("a.grib2", lambda path: grib2.read([path], {"MASSDEN"}, (), (0.0, 0.0, 1.0, 1.0))),
 }
 SILENT = {"model's log", "state of a watch"}
