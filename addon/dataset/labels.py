@@ -26,10 +26,15 @@ from .truth import Annotation, Box, CameraPose, Polyline, Truth
 
 ALPHAS = (0.05, 0.2, 0.5)
 """Opacities of smoke: the first one outlines a plume, each has a box."""
-CONTRAST = 0.02
+CONTRAST = 0.05
 """Least difference from the smoke-free twin, share of full scale of a channel in display values. The mean
-over 5 x 5 pixels counts, so that noise does not. H. Koschmieder (1924, "Theorie der horizontalen Sichtweite")
-has 2 % of luminance as threshold of sight; to use this share of display values is our assumption.
+over 5 x 5 pixels counts, so that noise does not. In front of a bright sky it is 15 % of luminance, three
+times the 5 % at which WMO-No. 8 sets the meteorological optical range; at that threshold nobody would draw a
+box (assumed).
+"""
+HORIZON = 0.02
+"""Least difference of land and sky at the horizon, as `CONTRAST`. In front of a bright sky it is 6 % of
+luminance: a long edge is seen near the threshold.
 """
 GLOW = 0.02
 """Least light of flames, share of white, in their brightest channel (assumed, as for smoke)."""
@@ -105,7 +110,7 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
         below_size=tuple(annotations[len(large) :]),
         front=_polylines(survey.front_in_picture(place, rendered.camera)),
         front_geojson=place.geojson(),
-        horizon=_polylines(survey.skyline(rendered.depth, rendered.rgb, CONTRAST)),
+        horizon=_polylines(survey.skyline(rendered.depth, rendered.rgb, HORIZON)),
         labelling=thresholds() | {"smoke_without_contrast_pixels": int((smoke & ~seen).sum())},
     )
     return sample_truth, _paint(large, rendered.depth.shape)

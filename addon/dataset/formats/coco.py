@@ -3,19 +3,24 @@
 `segmentation`, `bbox` and `area` belong to the visible pixels. `attributes` has what COCO has no key for:
 amodal box, distance, heights, temperature. Panoptic segments do not overlap: fire is above smoke, smoke above
 the classes of the ground. Pixels of fire or smoke that belong to no instance are void: 0.
+
+Instances below the smallest size are regions with `iscrowd` 1, in which a detection is neither right nor
+wrong.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import asdict
+from itertools import count
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import files, rle
+from .. import files, labels, rle
 from ..truth import CATEGORIES, FIRE, SMOKE, Annotation, Truth, stem
 from . import common
 
@@ -24,11 +29,12 @@ ORDER = 10
 FOLDER = "annotations"
 _SEGMENTS = 1000  # ids of segments of a category
 _STANDARD = {"id", "category", "box", "pixels"}
+_AROUND = math.isqrt(labels.MIN_PIXELS)  # pixels around a small instance, in which detections do not count
 
 
 def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
     """Write `instances_SPLIT.json`, `panoptic_SPLIT.json` and the folder of its PNG files."""
-    numbers = iter(range(1, 1 + sum(len(truth.annotations) for truth in samples)))
+    numbers = count(1)
     for split, members in common.by_split(samples).items():
         instances: list[dict[str, Any]] = []
         panoptic: list[dict[str, Any]] = []
@@ -38,6 +44,7 @@ def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
             masks = files.read_masks(set_folder, truth.index)
             for each in truth.annotations:
                 instances.append(_instance(truth, each, masks.visible_pixels(each), next(numbers)))
+            instances += [_ignored(truth, each, next(numbers)) for each in truth.below_size if each.pixels]
             panoptic.append(_panoptic(set_folder, truth, masks, pictures))
         head = _head(members)
         things = [_category(each.id, each.name) for each in common.THINGS]
@@ -86,6 +93,19 @@ def _instance(truth: Truth, annotation: Annotation, mask: NDArray[np.bool_], num
     }
 
 
+def _ignored(truth: Truth, annotation: Annotation, number: int) -> dict[str, Any]:
+    """Describe the region of an instance below the smallest size."""
+    x0, y0, x1, y1 = (round(edge) for edge in annotation.box)
+    region = np.zeros((truth.camera.height, truth.camera.width), np.bool_)
+    region[max(y0 - _AROUND, 0) : y1 + _AROUND, max(x0 - _AROUND, 0) : x1 + _AROUND] = True
+    area = int(region.sum())
+    return _instance(truth, annotation, region, number) | {
+        "bbox": _bounds(region),
+        "area": area,
+        "iscrowd": 1,
+    }
+
+
 def _panoptic(folder: Path, truth: Truth, masks: files.Masks, pictures: Path) -> dict[str, Any]:
     """Write the segments of a sample as PNG, with ids R + 256 G + 65536 B, and list them."""
     from PIL import Image
@@ -116,16 +136,20 @@ def _segments(segments: NDArray[np.int64]) -> list[dict[str, Any]]:
     entries = []
     areas = np.bincount(segments.ravel())
     for number in (np.flatnonzero(areas[1:]) + 1).tolist():  # without void
-        mask = segments == number
-        rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-        x, y = int(columns[0]), int(rows[0])
         entries.append(
             {
                 "id": number,
                 "category_id": number // _SEGMENTS,
                 "area": int(areas[number]),
-                "bbox": [x, y, int(columns[-1]) + 1 - x, int(rows[-1]) + 1 - y],
+                "bbox": _bounds(segments == number),
                 "iscrowd": 0,
             }
         )
     return entries
+
+
+def _bounds(mask: NDArray[np.bool_]) -> list[int]:
+    """Return x, y, width and height of the pixels of a mask."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    x, y = int(columns[0]), int(rows[0])
+    return [x, y, int(columns[-1]) + 1 - x, int(rows[-1]) + 1 - y]

@@ -28,8 +28,8 @@ def write(set_folder: Path, samples: Sequence[Truth], out: Path) -> None:
     yaml = [f"{name}: {name}.txt" for name in splits]
     if common.UNSPLIT in splits:
         yaml = [f"{name}: {common.UNSPLIT}.txt" for name in ("train", "val")]
-    elif "val" not in splits:  # trainers require it
-        yaml.append(f"val: {'test' if 'test' in splits else next(iter(splits))}.txt")
+    elif "train" in splits and "val" not in splits:  # trainers require it; pictures of tests choose no model
+        yaml.append("val: train.txt")
     classes = [f"  {index}: {each.name}" for index, each in enumerate(common.THINGS)]
     common.write_lines(out / "data.yaml", [*yaml, f"nc: {len(classes)}", "names:", *classes])
 

@@ -90,7 +90,22 @@ def test_yolo_lists_each_picture_once_with_its_labels(made):
     for picture in pictures:
         assert (folder / picture).is_file()
         assert (folder / picture.replace("/images/", "/labels/")).with_suffix(".txt").is_file()
-    assert "val: test.txt" in (folder / "data.yaml").read_text()
+    assert "val: train.txt" in (folder / "data.yaml").read_text()  # never the pictures of the test
+
+
+def test_coco_ignores_the_region_of_a_small_fire(tmp_path):
+    (truth,) = labelled.data_set(tmp_path, count=1)
+    small = replace(truth.annotations[0], id=9, box=(2.0, 3.0, 6.0, 5.0), pixels=7)
+    hidden = replace(small, id=10, box=(0.0, 0.0, 0.0, 0.0), pixels=0)
+    formats.write(tmp_path, [replace(truth, below_size=(small, hidden))], ["coco", "yolo"])
+    *boxes, region = instances(tmp_path, truth.split)["annotations"]
+    assert [each["iscrowd"] for each in boxes] == [0] * len(truth.annotations)
+    assert (region["iscrowd"], region["bbox"], region["area"]) == (1, [0, 0, 10, 9], 90)
+    mask = np.zeros((labelled.HEIGHT, labelled.WIDTH), bool)
+    mask[:9, :10] = True  # 4 pixels more on each side, within the picture
+    assert region["segmentation"] == rle.encode(mask)
+    assert len({each["id"] for each in [*boxes, region]}) == len(boxes) + 1
+    assert len((tmp_path / f"labels/{stem(1)}.txt").read_text().splitlines()) == len(boxes)
 
 
 def test_rows_of_hugging_face_name_pictures_and_boxes(made):

@@ -88,7 +88,7 @@ def test_boxes_by_opacity_shrink():
     assert plume.box == plume.boxes_by_alpha["0.05"]
 
 
-@pytest.mark.parametrize(("opacity", "added", "count"), [(0.3, 0.1, 1), (0.3, 0.01, 0), (0.04, 0.1, 0)])
+@pytest.mark.parametrize(("opacity", "added", "count"), [(0.3, 0.2, 1), (0.3, 0.04, 0), (0.04, 0.1, 0)])
 def test_smoke_without_opacity_or_contrast_has_no_box(opacity, added, count):
     shown = block((40, 100), (40, 100))
     sample = smoky(plain_samples.plane(CAMERA), shown, opacity, 3000.0, added)
