@@ -83,13 +83,26 @@ class Drawer:
     def moments(self, name: str) -> list[float]:
         """Compute the model times, s, of a run's samples with fire.
 
-        There is one in each equal part of their distribution; times after the end of the run are excluded.
+        There is one in each equal part of their distribution; times outside of the run are excluded.
+
+        Raises
+        ------
+        InputError
+            The run begins after all times of the distribution.
         """
-        first, last = self.scene(name).window
+        scene = self.scene(name)
+        (first, last), began = scene.window, scene.ignition
         chosen, count = self.plan.draws["time_since_ignition"], self.plan.moments
+        if chosen.quantile(1.0) < first - began:
+            raise input_error(
+                self.plan.path,
+                f"time_since_ignition is {chosen.quantile(1.0):.0f} s at most, but run {name} begins "
+                f"{first - began:.0f} s after its ignition; change it in [draws]",
+            )
         shares = [(k + share(self.plan.seed, 0, k, f"moment {name}")) / count for k in range(count)]
-        most = _share_below(chosen, last - first)
-        return [min(first + chosen.quantile(part * most), last) for part in shares]
+        least, most = (_share_below(chosen, limit - began) for limit in (first, last))
+        times_since = [chosen.quantile(least + part * (most - least)) for part in shares]
+        return [min(max(began + since, first), last) for since in times_since]
 
     def draw(self, index: int) -> Draw:
         """Draw a sample; samples are numbered from 1.

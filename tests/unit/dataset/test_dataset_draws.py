@@ -122,6 +122,26 @@ def test_times_follow_the_kind_of_a_sample(drawer):
         assert draw.sun_elevation < -6.0 or not draw.night
 
 
+@pytest.mark.parametrize(("low", "high"), [(60.0, 21600.0), (60.0, 900.0)])
+def test_moments_count_from_the_ignition_also_before_the_run(plan, drawer, monkeypatch, low, high):
+    scene = drawer.scene("a")
+    first, last = (float(time) for time in (scene.run.times[0], scene.run.times[-1]))
+    monkeypatch.setitem(vars(scene), "ignition", first - 1200.0)
+    monkeypatch.delitem(vars(scene), "window", raising=False)
+    of_plan = {**plan.draws, "time_since_ignition": LogUniform(low, high)}
+    changed = Drawer(dataclasses.replace(plan, draws=of_plan, moments=8))
+    changed._scenes = {"a": scene}
+    if high < 1200.0:
+        with pytest.raises(InputError, match=r"time_since_ignition .* begins 1200 s after .*draws"):
+            changed.moments("a")
+        return
+    least, most = 1200.0, last - scene.ignition
+    moments = changed.moments("a")
+    for k, moment in enumerate(moments):  # equal parts of what is left of the distribution
+        ends = [np.exp(np.interp(part / 8, [0, 1], np.log([least, most]))) for part in (k, k + 1)]
+        assert ends[0] - 1e-3 <= moment - scene.ignition <= ends[1] + 1e-3
+
+
 def test_a_fire_behind_a_ridge_is_drawn_again_and_the_tries_are_counted(plan, drawer, monkeypatch):
     index = next(n for n in range(1, 40) if drawer.draw(n).kind == "fire")
     before, seen = drawer.draw(index), []
