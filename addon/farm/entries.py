@@ -44,6 +44,8 @@ class Entry(NamedTuple):
         UTC of the frame, ISO 8601.
     clock
         Frame rate and time zone in the header of an EXR file (see `render.exr_clock`); "" for other files.
+    exposure
+        Exposure of a picture in visible light, stops; None for other files.
     """
 
     path: str
@@ -55,6 +57,7 @@ class Entry(NamedTuple):
     frame: int
     time: str
     clock: str = ""
+    exposure: float | None = None
 
     def is_intact(self, out: Path) -> bool:
         """Check that the file exists with this content."""
@@ -69,9 +72,7 @@ class Entry(NamedTuple):
         found = self._asdict()
         del found["path"], found["fingerprint"]
         found["pass"] = found.pop("name")
-        if not found["clock"]:
-            del found["clock"]
-        return found
+        return {name: value for name, value in found.items() if value not in ("", None)}
 
 
 @dataclass

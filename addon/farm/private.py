@@ -56,8 +56,8 @@ class PrivateFolder:
             made = json.loads(text)
             files.write(self.out / path, functools.partial(_link_or_copy, self.folder / path))
             content = made["bytes"], made["sha256"], key
-            of = made["camera"], made["pass"], made["frame"], made["time"], made.get("clock", "")
-            entries.append(Entry(path, *content, *of))
+            of = made["camera"], made["pass"], made["frame"], made["time"]
+            entries.append(Entry(path, *content, *of, made.get("clock", ""), made.get("exposure")))
         if entries:
             before, self.published = self.published, rows[-1][0]
             try:

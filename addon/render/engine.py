@@ -143,6 +143,11 @@ def check_working_space() -> None:
         )
 
 
+def exposure(scene: bpy.types.Scene) -> float:
+    """Return the exposure of the shown frame, stops; rounded, so that shares of a film have equal files."""
+    return round(scene.view_settings.exposure, 3)
+
+
 def set_metadata(run: Run, scene: bpy.types.Scene) -> None:
     """Set the metadata of all images: the run, and no values that differ between renders."""
     render = scene.render

@@ -31,7 +31,7 @@ from ..shot import exr_tags, passes
 from ..shot.fire import flame_map
 from ..shot.shot import Shot
 from ..smoke import sources
-from . import flame_distance, frame_cost, layers, motion_blur, rays, surfaces, text_layer
+from . import engine, flame_distance, frame_cost, layers, motion_blur, rays, surfaces, text_layer
 from .eye import Eye
 from .picture import Picture
 
@@ -232,7 +232,8 @@ class IntegratedRenderer:
         reds = [index for index, name in enumerate(names) if name.endswith("R")]
         for red in reds:
             pixels[..., red : red + 3] = exr_tags.to_exr_space(pixels[..., red : red + 3], space)
-        about = exr_tags.attributes(self.shot, picture.camera, picture.frame, each.comments, bool(reds))
+        stops = engine.exposure(self.scene) if reds else None
+        about = exr_tags.attributes(self.shot, picture.camera, picture.frame, each.comments, stops)
         file = part / Path(picture.file("exr")).name
         sensor.write_image(file, pixels, about, names, half=each.bits == 16, one_line=True)
 
@@ -261,7 +262,8 @@ class IntegratedRenderer:
         self.scene.render.use_multiview = two
         if two:
             sensor.write_image(png, np.concatenate(shown), {"Note": self.scene.render.stamp_note_text})
-        exr_tags.write_radiance(exr, np.concatenate(eyes), self.shot, picture.camera, picture.frame)
+        of = picture.camera, picture.frame, engine.exposure(self.scene)
+        exr_tags.write_radiance(exr, np.concatenate(eyes), self.shot, *of)
         return glare
 
     def _write(self, part: Path, picture: Picture, pixels: Array) -> None:

@@ -18,6 +18,9 @@ from ..errors import input_error, refuse_odd
 from ..imaging.credits import Credits
 
 NAME = "manifest.json"
+EXPOSURE = "exposure"
+"""Key of the stops of exposure in the entry of a picture in visible light."""
+
 _FORMAT = 1
 _LONGEST = 100  # characters of a name in a message
 
@@ -81,6 +84,10 @@ def _is_count(value: Any) -> bool:
     return type(value) is int and 0 <= value < 2**53
 
 
+def _is_stops(value: Any) -> bool:
+    return type(value) in (int, float) and abs(value) <= 32.0  # Blender has no more
+
+
 def _is_texts(value: Any) -> bool:
     return isinstance(value, list) and all(isinstance(each, str) for each in value)
 
@@ -102,6 +109,7 @@ _OF_FILES: dict[str, Callable[[Any], bool]] = {
     **dict.fromkeys(("camera", "pass", "clock", "settings", "film", "sha256"), _is_text),
     **dict.fromkeys(("credits", "services", "missing_tiles"), _is_texts),
     "time": _is_time,
+    EXPOSURE: _is_stops,
     "bytes": _is_count,
     "slate_frames": _is_count,
     "frame": lambda value: value is None or _is_count(value),

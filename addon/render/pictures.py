@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -123,7 +124,7 @@ def _frame(
         return []  # the new holder of the lease renders the frame
     if not queue.holds_lease():
         return []
-    publish(shot, session, part, finished, frame.words)
+    publish(shot, session, part, finished, frame.words, engine.exposure(stage.scene))
     return finished
 
 
@@ -213,7 +214,8 @@ class _Frame:
             return
         pixels = sensor.read_image(file)[..., :3]
         if known.shading == "light":
-            exr_tags.write_radiance(file, pixels, self.shot, self.camera, self.frame)
+            stops = engine.exposure(self.scene)
+            exr_tags.write_radiance(file, pixels, self.shot, self.camera, self.frame, stops)
         else:
             sensor.write_image(file, pixels, exr_tags.attributes(self.shot, self.camera, self.frame))
 
@@ -227,7 +229,12 @@ class _Frame:
 
 
 def publish(
-    shot: Shot, session: RenderSession, part: Path, pictures: list[Picture], words: Credits | None = None
+    shot: Shot,
+    session: RenderSession,
+    part: Path,
+    pictures: list[Picture],
+    words: Credits | None = None,
+    stops: float | None = None,
 ) -> None:
     """Verify the files of a complete frame, rename them into place and enter them in the store.
 
@@ -235,6 +242,8 @@ def publish(
     ----------
     words
         Credits of tiles in the scene, in addition to the fingerprint's.
+    stops
+        Exposure of the frame, for entries of passes in visible light; None: unknown.
 
     Raises
     ------
@@ -253,7 +262,9 @@ def publish(
         verify.picture(path, size)
     for picture in pictures:
         entries = {}
-        about = manifest.credit_entry(session.made_with[picture.camera, picture.name], words)
+        about: dict[str, Any] = manifest.credit_entry(session.made_with[picture.camera, picture.name], words)
+        if stops is not None and passes.known()[picture.name].is_exposed:
+            about[manifest.EXPOSURE] = stops
         for name in picture.files():
             entries[name] = describe(paths[name]) | {
                 "camera": picture.camera,

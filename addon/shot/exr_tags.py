@@ -1,7 +1,8 @@
 """Header attributes of EXR files, and the colour space of their radiance. Needs no Blender.
 
-Names and types are OpenEXR's standard attributes (`ImfStandardAttributes.h`). `colorInteropID` follows the
-ASWF Color Interop recommendation "Identifying the Color Space of OpenEXR Files". Attributes depend on shot
+Names and types are OpenEXR's standard attributes (`ImfStandardAttributes.h`), except `EXPOSURE` and
+`ORIGIN`. `colorInteropID` follows the ASWF Color Interop recommendation "Identifying the Color Space of
+OpenEXR Files". Attributes depend on shot
 and frame alone, so equal pictures are equal files.
 """
 
@@ -37,11 +38,14 @@ AP1_FROM_REC709 = np.array(
 TIMES = ("capDate", "framesPerSecond", "timeCode", "utcOffset")
 """Attributes that `times` returns."""
 
+EXPOSURE, ORIGIN = "exposureStops", "worldOrigin"
+"""Our own attributes: exposure, stops; and latitude, longitude and height (m) of the scene's origin."""
+
 _MOST_COUNTED = 30  # frames per second that timecode counts; faster films count pairs
 
 
 def attributes(
-    shot: Shot, camera: str, frame: int, comments: str = "", colour: bool = False
+    shot: Shot, camera: str, frame: int, comments: str = "", stops: float | None = None
 ) -> dict[str, Any]:
     """Collect the attributes of a frame's EXR for `sensor.write_image`.
 
@@ -51,23 +55,25 @@ def attributes(
         Name of the camera's view.
     comments
         Meaning of the channels.
-    colour
-        The file is scene-linear radiance in `render.exr_space`; otherwise it is data.
+    stops
+        Exposure of the picture, for a file of scene-linear radiance in `render.exr_space`; None: it is data.
     """
     view = pixel_rays.path_of(shot.paths, camera)
     run = f"Firetwin: {shot.run.name}" + (" (synthetic)" if shot.run.synthetic else "")
     latitude, longitude, altitude = (
         float(value[0]) for value in shot.local_frame.reverse(view.position[frame - 1][None])
     )
-    owner = "; ".join(picture_credits.of_shot(shot).data)
+    owner, origin = "; ".join(picture_credits.of_shot(shot).data), shot.local_frame
+    space = COLOUR_IDS[shot.settings.render.exr_space]
     return {
-        "colorInteropID": COLOUR_IDS[shot.settings.render.exr_space] if colour else "data",
+        **({"colorInteropID": "data"} if stops is None else {"colorInteropID": space, EXPOSURE: stops}),
         "comments": f"{run}; {comments}" if comments else run,
         "Software": f"Firetwin {firetwin_core.__version__}",
         "cameraLabel": camera,
         "latitude": latitude,
         "longitude": longitude,
         "altitude": altitude,
+        ORIGIN: f"{origin.latitude} {origin.longitude} {origin.height}",  # floats have too few digits
         "imageCounter": frame,
         **({"owner": owner} if owner else {}),
         **times(shot, frame),
@@ -151,7 +157,9 @@ def to_exr_space(light: NDArray[np.float32], space: str) -> NDArray[np.float32]:
     return (light @ AP1_FROM_REC709.T).astype(np.float32)
 
 
-def write_radiance(file: Path, light: NDArray[np.float32], shot: Shot, camera: str, frame: int) -> None:
-    """Write radiance (h, w, 3), linear Rec.709, as 16-bit EXR in `render.exr_space`."""
-    about = attributes(shot, camera, frame, "scene-linear radiance", colour=True)
+def write_radiance(
+    file: Path, light: NDArray[np.float32], shot: Shot, camera: str, frame: int, stops: float
+) -> None:
+    """Write radiance (h, w, 3), linear Rec.709, as 16-bit EXR in `render.exr_space`; `stops`: see above."""
+    about = attributes(shot, camera, frame, "scene-linear radiance", stops)
     sensor.write_image(file, to_exr_space(light, shot.settings.render.exr_space), about, half=True)

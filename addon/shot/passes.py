@@ -97,6 +97,11 @@ class Pass:
         """Aspects on which its files depend, with the aspects of the passes that they are made from."""
         return self.aspects.union(*(known()[name].all_aspects for name in self.made_from))
 
+    @property
+    def is_exposed(self) -> bool:
+        """Return True if its pictures, or views of its files, have the exposure of visible light."""
+        return "colour" in self.all_aspects
+
     def size(self, resolution: tuple[int, int]) -> tuple[int, int]:
         """Return columns and rows, both even, of its picture for a camera's resolution."""
         width, height = resolution

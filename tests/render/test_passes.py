@@ -5,9 +5,11 @@ import numpy as np
 import pytest
 import rendered
 from firetwin.passes import masks
-from firetwin.render import plan
+from firetwin.render import manifest, plan
 from firetwin.render.picture import Picture
+from firetwin.render.store import Store
 from firetwin.shot import passes
+from firetwin.shot.light import exposure
 from firetwin_core import sensor
 
 NAMES = [
@@ -43,11 +45,18 @@ keys = [{{at = 0, latitude = 38.825, longitude = -120.56, height = 500, target =
 
 
 @pytest.fixture(scope="module")
-def frame(run_folder, tmp_path_factory):
-    """Render it: (image of a pass by name and suffix, files that the plan says)."""
+def film(run_folder, tmp_path_factory):
+    """Render it: (shot, folder of its files, messages)."""
     folder, names = tmp_path_factory.mktemp("frame"), "[" + ", ".join(f'"{name}"' for name in NAMES) + "]"
     text = SCENE.format(run=levels_run.write(run_folder, folder / "levels"), passes=names)
-    shot, out = rendered.everything(folder, text)
+    said = []
+    return *rendered.everything(folder, text, said.append), said
+
+
+@pytest.fixture(scope="module")
+def frame(film):
+    """Return (image of a pass by name and suffix, files that the plan says)."""
+    shot, out, _ = film
 
     def image(name, suffix="exr"):
         return np.asarray(sensor.read_image(out / Picture("drone", 1, name).file(suffix)))
@@ -59,6 +68,23 @@ def test_every_file_is_there(frame):
     _image, files = frame
     assert {path.parent.name for path in files} == set(NAMES)
     assert not [path for path in files if not path.exists()]
+
+
+def test_the_exposure_of_the_picture_is_in_exr_store_and_log(film):
+    openexr = pytest.importorskip("OpenEXR")
+    shot, out, said = film
+    stops = exposure.at(shot, np.array([1]))[0]
+    header = openexr.File(str(out / Picture("drone", 1, "rgb").file("exr"))).header()
+    assert header["exposureStops"] == pytest.approx(stops, abs=1e-3)
+    assert header["worldOrigin"].split()[0] == str(shot.local_frame.latitude)
+    assert f"drone is exposed by {stops:.1f} stops" in said
+    with Store(out) as store:
+        store.export()
+    entries = manifest.read(out)["files"].values()
+    exposed = {each["pass"]: each["exposure"] for each in entries if "exposure" in each}
+    assert exposed == dict.fromkeys(exposed, pytest.approx(stops, abs=1e-3))
+    assert exposed.keys() == {name for name in NAMES if passes.known()[name].is_exposed} > {"rgb"}
+    assert not {"depth", "masks", "thermal"} & exposed.keys()
 
 
 def test_flames_are_brighter_and_redder_than_the_rest(frame):

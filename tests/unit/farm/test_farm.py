@@ -294,6 +294,19 @@ def render(out, made_with, number, frames, ended: int | None = 0, content_of=b"p
             log.end(ended, "" if ended == 0 else "no luck")
 
 
+def test_a_farm_keeps_the_facts_of_a_picture(tmp_path):
+    facts = {"camera": "drone", "pass": "rgb", "frame": 2, "time": "now", "clock": "24 UTC", "exposure": 3.25}
+    own, path = tmp_path / "own", "drone_rgb_000002.exr"
+    with Store(own, create=True) as store:
+        (own / path).write_bytes(b"picture")
+        facts |= describe(own / path)
+        store.add({}, {path: facts})
+    with entries.attempt(tmp_path, 1) as log:
+        PrivateFolder(own, tmp_path, log).publish()
+    ((entry,),) = (each.entries for each in entries.attempts(tmp_path, 1))
+    assert entry.as_row() == facts
+
+
 def test_assemble_names_what_is_missing_and_refuses_what_is_damaged(film):
     out, made_with = film
     farm_job = plan.read(out)

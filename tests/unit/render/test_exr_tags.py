@@ -45,7 +45,7 @@ def shot(monkeypatch):
 
 def test_tags_of_a_frame(shot, tmp_path):
     openexr = pytest.importorskip("OpenEXR")
-    exr_tags.write_radiance(tmp_path / "a.exr", np.full((4, 8, 3), 0.5, np.float32), shot, "drone", 1)
+    exr_tags.write_radiance(tmp_path / "a.exr", np.full((4, 8, 3), 0.5, np.float32), shot, "drone", 1, 4.25)
     header = openexr.File(str(tmp_path / "a.exr")).header()
     expected = {
         "colorInteropID": "lin_ap1_scene",
@@ -55,6 +55,8 @@ def test_tags_of_a_frame(shot, tmp_path):
         "utcOffset": 7 * 3600.0,
         "cameraLabel": "drone",
         "imageCounter": 1,
+        "exposureStops": 4.25,
+        "worldOrigin": "38.8 -120.6 1000.0",
         "framesPerSecond": Fraction(24),
         "pinholeFocalLength": pytest.approx(18.0 / 0.6),
     }
@@ -70,7 +72,9 @@ def test_tags_of_a_frame(shot, tmp_path):
 
 
 def test_data_is_tagged_as_data(shot):
-    assert exr_tags.attributes(shot, "drone", 1)["colorInteropID"] == "data"
+    tags = exr_tags.attributes(shot, "drone", 1)
+    assert tags["colorInteropID"] == "data"
+    assert "exposureStops" not in tags
 
 
 @pytest.mark.parametrize("perspective", [True, False])
