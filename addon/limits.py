@@ -65,6 +65,9 @@ LIMITS.append(Limit(_X, "years of the times of a run", f"{RUN_YEARS[0]} to {RUN_
 RUN_HEIGHTS = -12_000, 10_000
 """m; the Earth's surface has -10,935 m (Challenger Deep) to 8,849 m (Everest)."""
 LIMITS.append(Limit(_X, "elevation of a run, m", f"{RUN_HEIGHTS[0]:,} to {RUN_HEIGHTS[1]:,}", "refused"))
+HEAT_FLUX = 1e9
+"""W/m2; beyond it, heat of a fire is not a number in single precision. The Sun's surface has 6e7 W/m2."""
+LIMITS.append(Limit(_X, "heat flux of a run, W/m2", f"{HEAT_FLUX:,.0f}", "refused"))
 TEXT_BYTES = _number(_X, "size of GeoJSON, KML, GPX and CSV, also within a KMZ", 1 << 28, "refused", "bytes")
 
 TEXT_VALUES = _number(_X, "numbers, lists and tags in such a file", 20_000_000, "refused")

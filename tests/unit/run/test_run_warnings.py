@@ -33,6 +33,14 @@ def test_gaps_of_heat_flux_are_counted_and_named(make):
     assert text in info.gather(run, "UTC")["warnings"]
 
 
+def test_a_flux_beyond_the_sun_is_refused_with_its_time_and_cell(make):
+    run = make(16, [((8, slice(2, 6)), 5e4), ((3, 4), 1e38)])
+    words = r"heat_flux: has 1e\+38 W/m2 at time 2, 2020-07-01T20:30:00Z, in row 4, column 5"
+    for read in (run_warnings.of_fire, lambda each: info.gather(each, "UTC")):
+        with pytest.raises(InputError, match=words):
+            read(run)
+
+
 def test_a_run_without_gaps_has_no_warning(make):
     assert run_warnings.of_fire(make(16, [((8, 8), 5e4)])) == []
 
