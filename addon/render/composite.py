@@ -8,6 +8,7 @@ distance) of the pixel's few rays, and from its neighbours. Flames have a separa
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -158,18 +159,29 @@ def solid_share(surfaces: Surfaces) -> Array:
     return np.where(_is_unknown(surfaces), 1.0, np.clip(surfaces.solid, 0.0, 1.0)).astype(np.float32)
 
 
-def split_light(surfaces: Surfaces, solid: Array, sun: Array, firelight: Array) -> tuple[Array, Array, Array]:
+def split_light(
+    surfaces: Surfaces, solid: Array, sun: Array, firelight: Array, glow: Array
+) -> tuple[Array, Array, Array]:
     """Split the layer of solid surfaces into light of the sun, sky and fire, which add up to it.
+
+    The shares of reflected light are noisy, and are averaged over 3 x 3 pixels. Those of embers have no
+    noise, and differ from pixel to pixel.
 
     Parameters
     ----------
+    solid
+        (h, w, 3), before `soften_highlights`.
     sun, firelight
-        (h, w, 3) shares of the noisy light from the sun, and from flames on surfaces and embers.
+        (h, w, 3) parts of the noisy light: of the sun, and of flames on surfaces.
+    glow
+        (h, w, 3) radiance of embers and flames on surfaces, in the noisy light.
     """
-    noisy = np.maximum(blur(surfaces.noisy - surfaces.fire), 1.0e-6)
-    sun, fire = (np.clip(blur(each) / noisy, 0.0, 1.0) for each in (sun, firelight))
-    most = np.maximum(sun + fire, 1.0)
-    sun, fire = solid * sun / most, solid * fire / most
+    reflected = np.maximum(blur(np.maximum(surfaces.noisy - surfaces.fire - glow, 0.0)), 1.0e-6)
+    glow = np.maximum(glow, 0.0)
+    embers = solid * glow / (glow + reflected)
+    sun, fire = (np.clip(blur(each) / reflected, 0.0, 1.0) for each in (sun, firelight))
+    rest = (solid - embers) / np.maximum(sun + fire, 1.0)
+    sun, fire = rest * sun, rest * fire + embers
     return sun, solid - sun - fire, fire
 
 
@@ -222,14 +234,20 @@ def soften_highlights(layers: Layers, white: float) -> Layers:
     Flames are many times brighter than white. Without this, a pixel that shows a little of them between
     leaves is as bright as one full of them, and gaps look like square chips.
     """
-    brightest = layers.picture.max(axis=-1, keepdims=True)
+    spread = softening(layers.picture, white)
+    return Layers(spread(layers.picture), spread(layers.solid), spread(layers.fire))
+
+
+def softening(picture: Array, white: float) -> Callable[[Array], Array]:
+    """Return the function by which `soften_highlights` spreads a layer of a picture; sums stay sums."""
+    brightest = picture.max(axis=-1, keepdims=True)
     part = np.clip(1.0 - white / np.maximum(brightest, 1.0e-6), 0.0, 1.0)
 
     def spread(layer: Array) -> Array:
         excess = layer * part
         return (layer - excess + blur(excess)).astype(np.float32)
 
-    return Layers(spread(layers.picture), spread(layers.solid), spread(layers.fire))
+    return spread
 
 
 def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: Array | float) -> Array:

@@ -91,6 +91,7 @@ class Eye:
         """Pixels (h, w) whose infrared rays are marched; a caller that knows more can set it."""
         # Parts of the picture for passes (see `shot.passes.MarchedPass`), once `picture` has computed them.
         self.composed: composite.Layers
+        self.sharp: composite.Layers  # before `composite.soften_highlights`
         self.solid_share = self.smoke_opacity = self.clear
         self.text: Array | None = None
 
@@ -101,20 +102,25 @@ class Eye:
         marched = self._march_taps(at, self.parts or bool(self.flames))
         self.clear = marched[..., 3].mean(axis=-1)
         white = 2.0**-self.stage.scene.view_settings.exposure
-        composed = composite.compose(rendered, at, marched, white if self.flames else None)
+        sharp = composed = composite.compose(rendered, at, marched, white if self.flames else None)
         if self.flames:
-            composed = composite.soften_highlights(composed, _WHITE * white)
+            composed = composite.soften_highlights(sharp, _WHITE * white)
         self.text = None if text is None else self._text_layer(rendered, at, text)
         if self.parts:
-            self.composed, self.solid_share = composed, composite.solid_share(rendered)
+            self.sharp, self.composed, self.solid_share = sharp, composed, composite.solid_share(rendered)
             self.smoke_opacity = composite.smoke_opacity(rendered, at, marched)
         return composed.picture if self.text is None else composite.place_over(composed.picture, self.text)
 
     def split_light(self) -> tuple[Array, Array, Array]:
         """Split the solid surfaces of the picture into light (h, w, 3) of the sun, the sky and fire."""
-        sun = self.channels[f"Combined_{nodes.SUN}"]
-        firelight = self.channels[f"Combined_{nodes.FIRELIGHT}"] + self.channels[nodes.GLOW]
-        return composite.split_light(self._surfaces(), self.composed.solid, sun, firelight)
+        sun, firelight = (self.channels[f"Combined_{group}"] for group in (nodes.SUN, nodes.FIRELIGHT))
+        solid, glow = self.sharp.solid, self.channels[nodes.GLOW]
+        sun, sky, fire = composite.split_light(self._surfaces(), solid, sun, firelight, glow)
+        if not self.flames:
+            return sun, sky, fire
+        white = _WHITE * 2.0**-self.stage.scene.view_settings.exposure
+        spread = composite.softening(self.sharp.picture, white)
+        return spread(sun), spread(sky), spread(fire)
 
     def _march_taps(self, at: Array, parts: bool, places: Sequence[tuple[float, float]] = _PLACES) -> Array:
         """March rays through `places` of each pixel to the taps (h, w, 3), m, and return their mean."""

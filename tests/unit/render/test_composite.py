@@ -355,8 +355,10 @@ def test_layers_add_up_and_are_positive(seed, white):
     flames = smoke[..., :3] * random.uniform(0.0, 1.0, (*SIZE, 1, 1)).astype(np.float32)
     marched = np.concatenate([smoke, flames, smoke[..., 3:]], axis=-1)
     composed = composite.compose(scene, at, marched, 1.0 if white else None)
-    composed = composite.soften_highlights(composed, 2.0) if white else composed
-    lights = composite.split_light(scene, composed.solid, sun, firelight)
+    lights = composite.split_light(scene, composed.solid, sun, firelight, sky * (sky > 1.0))
+    if white:
+        spread = composite.softening(composed.picture, 2.0)
+        composed, lights = composite.soften_highlights(composed, 2.0), [*map(spread, lights)]
     assert composed.solid + composed.fire + composed.smoke == pytest.approx(
         composed.picture, rel=1e-5, abs=1e-5
     )
@@ -373,9 +375,20 @@ def test_lights_have_the_shares_of_their_groups():
         np.full((*SIZE, 3), value, np.float32) for value in (8.0, 12.0, 3.0, 1.0, 2.0)
     )
     sun, sky, fire = composite.split_light(
-        surfaces(12.0, 100.0, noisy=noisy, fire=flames), solid, sun, firelight
+        surfaces(12.0, 100.0, noisy=noisy, fire=flames), solid, sun, firelight, np.zeros_like(sun)
     )
     assert [each.mean() for each in (sun, sky, fire)] == pytest.approx([6.0, 4.0, 2.0])
+
+
+def test_embers_leave_the_light_of_the_sky_next_to_them():
+    glow = np.zeros((*SIZE, 3), np.float32)
+    glow[SIZE[0] // 2, SIZE[1] // 2] = 50.0, 20.0, 2.0
+    sun, firelight = np.full_like(glow, 0.05), np.full_like(glow, 0.02)
+    noisy = glow + sun + firelight + 0.1
+    scene = surfaces(0.0, 100.0, noisy=noisy, fire=np.zeros_like(glow))
+    lights = composite.split_light(scene, noisy, sun, firelight, glow)
+    for light, expected in zip(lights, (0.05, 0.1, firelight + glow), strict=True):
+        assert light == pytest.approx(np.broadcast_to(expected, light.shape), rel=1e-3, abs=1e-4)
 
 
 def test_opacity_is_of_smoke_alone():
