@@ -14,6 +14,7 @@
 namespace firetwin::flames {
 namespace {
 
+constexpr float seen_light = 0.84F; // of a coarse cell: its hot gas is behind cooler gas (measured)
 constexpr float full = 255.0F;
 constexpr float most_cells = 1.0e6F; // height that an index can hold; nothing burns there
 constexpr std::int64_t cube = 8; // cells along a side, which are skipped at once if nothing burns
@@ -112,7 +113,7 @@ struct BlockFrame {
     const auto columns = static_cast<float>((k1 - first[0]) * (j1 - first[1]));
     const float deep = thickness * cell * static_cast<float>(i1 - first[2]);
     const float mean = std::min(-std::log(std::max(through / columns, 1.0e-6F)) / deep, 1.0F);
-    const float heat = heat_of(light / extinction);
+    const float heat = heat_of(seen_light * light / extinction);
     const auto code = [](float value) { return static_cast<std::uint32_t>(value * full + 0.5F); };
     return static_cast<std::uint16_t>(code(mean) | code(mean * heat) << 8U);
   }

@@ -77,7 +77,8 @@ float wave(float x, float y, std::int64_t seed) {
   return gradient_noise(rise, y - j, x - i);
 }
 
-/// Adds a block's gas with a weight.
+/// Adds a block's gas with a weight. Codes add as fourth powers, with weights to the power of 1.5:
+/// a mean of two patterns has half of the gas of each, which is dark, and their sum is too rich.
 void add_block(const FlameBlock& block, const BlockPlaces& places, float time,
                const BlockLevels& levels, const Lanes& weight, GasLanes& out) {
   const auto add = [&](int number, float share) {
@@ -87,7 +88,10 @@ void add_block(const FlameBlock& block, const BlockPlaces& places, float time,
     if (number == 0) {
       Lanes code;
       block.codes(places, time, code);
-      out.code += weight * code;
+      Lanes kept;
+      roots(weight, kept);
+      const Lanes square = code * code;
+      out.code += weight * kept * square * square;
     } else {
       CoarseFlame flame;
       block.coarse(number, places, time, flame);
@@ -104,6 +108,13 @@ __attribute__((always_inline)) inline void drawn_lengths(const Lanes& length, fl
                                                          Lanes& out) {
   const float at_least = std::max(FlameField::wide_pixels * size, shortest);
   out = length < at_least ? Lanes{} + at_least : length;
+}
+
+/// Returns codes from the sums of `add_block`.
+void finish_codes(GasLanes& gas) {
+  Lanes square;
+  roots(gas.code, square);
+  roots(square, gas.code);
 }
 
 /// A moment of a block that repeats in other places: each loop fades in over the end of the one
@@ -265,6 +276,8 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   find_foot(x, y, height, node, foot);
   add_front(foot, height, size, out.gas[0]);
   add_low(foot, height, size, out.gas[1]);
+  finish_codes(out.gas[0]);
+  finish_codes(out.gas[1]);
   if (!crowns_.empty()) {
     add_crowns(x, y, z, size, out.gas[2]);
   }
@@ -527,6 +540,7 @@ void FlameField::add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, floa
         });
       }
     }
+    finish_codes(own);
     const Lanes fine = Lanes{} + levels.fine();
     const Lanes mine = own.code * fine + own.coarse.extinction,
                 best = out.code * out.fine + out.coarse.extinction;

@@ -28,7 +28,7 @@ RADIATED = 0.12  # of the heat of combustion is radiated by flames (Freeborn et 
 KELVIN = (960.0, 1400.0)  # K at heat 0 and 1
 THICKNESS = 20.0  # visible optical depth of the sootiest gas over a flame length (by eye)
 _OPAQUE = 10.0  # 1/m, most of the visible extinction: small flames are thinner (by eye)
-INFRARED = ((0.5, 1.74), (1.8, 1.09), (5.0, 0.65), (18.0, 0.9), (30.0, 1.8))
+INFRARED = ((0.5, 1.63), (1.8, 0.99), (5.0, 0.64), (18.0, 0.93), (30.0, 2.0))
 """Flame length, m, and infrared extinction of the sootiest gas, 1/m (by power, see test_flames)."""
 _CORE = 3.0  # luminance of the core times 2^exposure (by eye)
 _LUMINANCE = (0.3, 4.0)  # its bounds, units of the scene
