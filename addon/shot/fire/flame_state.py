@@ -18,6 +18,7 @@ from . import flame_noise, flame_phase, flame_size
 
 FARTHEST = 9000.0  # m, bound of the distance from the front
 LEAST, LONGEST = 0.15, 75.0  # m, flame lengths
+_CROWN_SURGE = 0.8  # part of the surges that a crown fire does not have: they would be columns (by eye)
 _TALL = 1.2  # length of tall flames over the mean length, without surges (by eye)
 TALLEST = _TALL * flame_noise.MOST_SURGE  # length of the longest flames over the mean length
 RAGGED = ((14.0, 3.5), (4.5, 1.2))  # m, sizes and shifts of the ragged edge of a crown fire's front (by eye)
@@ -133,7 +134,8 @@ def unevenness(shot: Any, place: Array, even: Array) -> Array:
     clumps = flame_noise.clumping(shot, east[crowns], north[crowns])
     sparse = (1.0 - _BETWEEN) * (1.0 - noise.smoothstep(*flame_noise.CLUMPS, clumps))
     factor[crowns] *= 1.0 - crowded[crowns] * sparse
-    factor = np.minimum(factor, _TALL) * flame_noise.surge_factor(east, north, even, seed)
+    factor = np.minimum(factor, _TALL)
+    factor *= flame_noise.surge_factor(east, north, even, seed) ** (1.0 - _CROWN_SURGE * crowded)
     broken = np.flatnonzero(flame_noise.gap_fraction(even) > 0.0)
     margin = flame_noise.gap_margin(east[broken], north[broken], even[broken], scale, seed)
     factor[broken] *= noise.smoothstep(-0.06, 0.06, margin)
