@@ -521,7 +521,7 @@ def test_a_run_that_releases_more_than_its_fuel_is_warned_of(make_run):
     path = make_run()
     found = info.gather(runs.open(path), "UTC")
     assert not any("times the heat of the fuel" in text for text in found["warnings"])
-    np.save(path / "heat_flux.npy", 1e6 * np.load(path / "heat_flux.npy"))
+    np.save(path / "heat_flux.npy", 1e4 * np.load(path / "heat_flux.npy"))
     found = info.gather(runs.open(path), "UTC")
     assert any("times the heat of the fuel" in text for text in found["warnings"])
 

@@ -97,8 +97,8 @@ def test_what_a_product_depends_on_is_chosen_by_aspect():
     chosen = schema.select(SETTINGS, {"thermal"})
     assert chosen["render"] == {"thermal_low": None, "thermal_high": 800.0}
     assert chosen["thermal"]["band"] == "lwir"
-    chosen = schema.select(SETTINGS, {"terrain"})["forest"]  # the colours of what grows on it
-    assert set(chosen) == {"biome", "greenness", "shrub_cover", "tree_cover"}
+    chosen = schema.select(SETTINGS, {"terrain"})["forest"]  # the colours of what grows on it, or is left out
+    assert set(chosen) == {"biome", "budget", "greenness", "shrub_cover", "tree_cover", "widening"}
     for aspect in ("terrain", "forest", "fire", "smoke"):
         chosen = schema.select(SETTINGS, {aspect})
         more = {"terrain": {"forest", "tiles"}, "forest": {"tiles"}}.get(aspect, set())
