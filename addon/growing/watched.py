@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import output
-from ..errors import Error, input_error, refuse_odd
+from ..errors import Error, input_error
 from ..files import read_json
 
 TIMES, STATUS, PAGE = "times.json", "status.json", "index.html"
@@ -111,12 +111,11 @@ def times(folder: Path) -> list[Accepted]:
         ``times.json`` is damaged.
     """
     path = folder / TIMES
-    refuse_odd(path)
     try:
         return [_accepted(each) for each in read_json(path)]
     except FileNotFoundError:
         return []
-    except (OSError, ValueError, TypeError, OverflowError, RecursionError) as error:
+    except (OSError, ValueError, TypeError, OverflowError) as error:
         raise input_error(path, f"cannot be read ({error}); choose another --out") from None
 
 
@@ -181,9 +180,8 @@ def newest(folder: Path) -> Path | None:
 def status(folder: Path) -> dict[str, Any]:
     """Read ``status.json``; empty if there is none."""
     try:
-        refuse_odd(folder / STATUS)
         found = read_json(folder / STATUS)
-    except (OSError, ValueError, RecursionError, Error):
+    except (OSError, ValueError, Error):
         return {}
     return found if isinstance(found, dict) else {}
 

@@ -12,7 +12,7 @@ sees it:
 smoke before the surface, and `A` is 1 - share of the sky. `fire` includes soot in flames; its blue can be
 slightly negative, because colours of flames are outside of Rec.709. `light_fire` is the light of flames on
 surfaces, and embers; `light_sky` includes haze. The denoised surfaces are divided by the shares of the noisy
-light groups, which are averaged over 3 x 3 pixels, except those of embers.
+light groups. Shares are averaged over 3 x 3 pixels, but not the share of embers.
 """
 
 from __future__ import annotations

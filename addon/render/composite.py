@@ -361,12 +361,21 @@ def _flame_light(surfaces: Surfaces) -> Array:
 
 
 def _without_edges(colour: Array, noisy: Array, near: Array, share: Array, edge: NDArray[np.bool_]) -> Array:
-    """Replace edge pixels of a colour (h, w, 3) by that of their near surface, which covers a share (h, w).
+    """Replace the colour (h, w, 3) of edge pixels by the colour of the near surface.
 
-    It is the mean of non-edge neighbours at equal depth. If there are none, as at twigs, it is extrapolated
-    from the pixel and the neighbour with the least share to a pixel that the near surface covers, before the
-    denoiser mixes them, up to the darkest colour of the 3 x 3 neighbourhood: bright outliers are fire or sky
+    The colour is the mean of non-edge neighbours at equal depth. Twigs have no such neighbours. There, the
+    noisy colours of the pixel and of the neighbour with the least share are extrapolated to full coverage.
+    The result is limited to the darkest colour of the 3 x 3 neighbourhood: bright outliers are fire or sky
     behind smoke.
+
+    Parameters
+    ----------
+    noisy
+        (h, w, 3) colour before denoising, which mixes surfaces.
+    near
+        (h, w) distance of the near surface, m.
+    share
+        (h, w) share of the pixel that the near surface covers.
     """
     cleaned = colour.copy()
     rows, columns = np.nonzero(edge)

@@ -14,7 +14,7 @@ from typing import Any
 
 from .. import files, limits
 from ..database import BROKEN
-from ..errors import input_error, refuse_odd
+from ..errors import input_error
 from ..imaging.credits import Credits
 
 NAME = "manifest.json"
@@ -34,7 +34,6 @@ def read(out: Path) -> dict[str, Any]:
         The file exists and is not a manifest.
     """
     path = out / NAME
-    refuse_odd(path)
     try:
         content = files.read_json(path)
     except (FileNotFoundError, NotADirectoryError):

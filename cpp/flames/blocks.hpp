@@ -36,9 +36,9 @@ struct CoarseFlame {
 
 /// Mixture fractions of a solved fire, frame by frame, and coarser levels of its extinction.
 ///
-/// Cells of a level are twice as wide as those of the previous one. Its extinction lets the same
-/// mean share of light through as the columns of cells in it do, and its heat gives their mean
-/// luminance, so that flames keep their light and their gaps when pixels are larger than cells.
+/// Each level doubles the width of cells. Its extinction lets the same mean share of light through
+/// as the columns of cells in it do, and its heat gives the luminance that leaves them, so that
+/// flames keep their light and their gaps when pixels are larger than cells.
 class FlameBlock {
 public:
   static constexpr int levels = 4;           ///< coarser than the cells

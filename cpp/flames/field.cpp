@@ -276,14 +276,17 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   find_foot(x, y, height, node, foot);
   add_front(foot, height, size, out.gas[0]);
   add_low(foot, height, size, out.gas[1]);
-  finish_codes(out.gas[0]);
-  finish_codes(out.gas[1]);
+  for (std::size_t kind = 0; kind < 2; ++kind) {
+    if (out.gas[kind].any) {
+      finish_codes(out.gas[kind]);
+    }
+  }
   if (!crowns_.empty()) {
     add_crowns(x, y, z, size, out.gas[2]);
   }
 }
 
-/// Finds the foot: wind beyond that of the solved fire leans the flames.
+/// Finds the foot: flames lean where the wind is stronger than in the solved fire.
 FIRETWIN_CLONES("avx2")
 void FlameField::find_foot(const Lanes& x, const Lanes& y, const Lanes& height,
                            const NodeLanes& node, Foot& out) const {

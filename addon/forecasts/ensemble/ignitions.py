@@ -52,7 +52,7 @@ class Ignitions:
         return replace(manifest, kind="ignitions")
 
     def _add(self, arrival: NDArray) -> None:
-        """Compare the first burned cells of a member with those of the first one."""
+        """Compare the first burned cells of a member with the first member's."""
         begin = max(float(np.min(arrival, initial=np.inf, where=~np.isnan(arrival))), 0.0)
         burned = arrival <= begin
         if not np.isfinite(begin) or not burned.any():

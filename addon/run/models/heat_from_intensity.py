@@ -122,7 +122,7 @@ def of_intensity(
 
 
 def _per_area(intensity: NDArray[np.float64], speed: NDArray) -> NDArray[np.float64]:
-    """Compute intensity over speed, J/m2; NaN where it is not a positive number."""
+    """Compute intensity over speed, J/m2, as NaN unless it is a positive number."""
     with np.errstate(divide="ignore", invalid="ignore"):
         heat = intensity / speed
     return np.where((heat > 0.0) & np.isfinite(heat), heat, np.nan)

@@ -118,9 +118,10 @@ def grow(shot: Shot, in_film: bool = True) -> Stand:
 def _is_clear_of_cameras(
     shot: Shot, position: NDArray[np.float64], height: NDArray[np.floating], distance: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Return which trees (n) of these heights (m) have no part of their trunk within `CLEARING` of a camera.
+    """Return which trees (n) of these heights (m) have their whole trunk beyond `CLEARING` from all cameras.
 
-    `distance` is that of their feet. A camera may fly between crowns, more than `CLEARING` above the ground.
+    `distance` is from a camera to the foot. A camera may fly between crowns, more than `CLEARING` above the
+    ground.
     """
     clear: NDArray[np.bool_] = distance > CLEARING
     near = np.flatnonzero(clear & (distance < CLEARING + TALLEST))

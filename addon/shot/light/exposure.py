@@ -27,10 +27,8 @@ _ADAPTATION_DARK, _ADAPTATION_BRIGHT = 0.6, 0.3
 _WHITE = 0.34  # largest luminance of the brightest tenth of the glow; above, AgX turns it from orange to pink
 _AMID = 0.085  # largest mean of the glow over the picture: flames and trees must show in it; by eye
 _LEAST, _MOST = -3.0, 4.0  # stops
-_TWILIGHT, _MORE = (
-    (-18.0, -6.0),
-    2.0,
-)  # heights (degrees) within which dusk may have so many stops more; by eye
+_TWILIGHT = -18.0, -6.0  # degrees, solar elevations between which the limit rises by `_MORE` (by eye)
+_MORE = 2.0  # stops, increase of the limit at dusk (by eye)
 _SUNLIT, _RISEN = 0.2, (-2.0, 6.0)  # darkness at most while the sun is up, and heights (degrees); by eye
 _DARK = 1.4, 3.4  # stops without flames at which flame light begins to dominate, and dominates fully; by eye
 
