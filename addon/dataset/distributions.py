@@ -129,7 +129,7 @@ class Value(NamedTuple):
 
 VALUES: Mapping[str, Value] = MappingProxyType(
     {
-        "time_since_ignition": Value(LogUniform(60, 21600), "s", 1, 864000, "model time after ignition"),
+        "time_since_ignition": Value(LogUniform(60, 864000), "s", 1, 864000, "model time after ignition"),
         "time_before_ignition": Value(LogUniform(60, 7200), "s", 1, 864000, "the same before ignition"),
         "time_after_end": Value(LogUniform(3600, 86400), "s", 1, 8640000, "time after the last fire"),
         "sun_elevation_day": Value(Uniform(-6, 65), "degrees", -6, 90, "height of the sun by day"),

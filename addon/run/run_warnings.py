@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from firetwin_core.run import Run
 
-from .. import limits
-from ..errors import input_error
-from . import areas, burning, times
+from . import areas, bounds, burning, times
 
 _CLIFF = 1_500.0  # m; the highest cliff, of Mount Thor, has 1,250 m
 _STEEPEST = 2.0  # rise over run of mountain sides of a cell or more (assumed)
@@ -18,36 +14,13 @@ _GAPS = "heat_flux has no value"
 
 def texts(run: Run) -> list[str]:
     """List all warnings about a run; `released.warnings` has the ones about its energy."""
-    _check_flux(run)
+    bounds.check_flux(run)
     return [*_of_values(run), *_single_cell(run), *_cliffs(run)]
-
-
-def _check_flux(run: Run) -> None:
-    """Check that the heat flux of a run is one of a fire; reads all fluxes once.
-
-    Raises
-    ------
-    InputError
-        It is not.
-    """
-    if not run.flux_range()[1] > limits.HEAT_FLUX:
-        return
-    for index, time in enumerate(run.times):
-        flux = run.heat_flux(index)
-        beyond = np.argwhere(np.isfinite(flux) & (flux > limits.HEAT_FLUX))
-        if len(beyond):
-            row, column = beyond[0]
-            moment = times.iso(times.utc(run, float(time)))
-            reason = (
-                f"has {flux[row, column]:.3g} W/m2 at time {index + 1}, {moment}, in row {row + 1}, column "
-                f"{column + 1}, and at most {limits.HEAT_FLUX:.0e} W/m2 are possible; write it in W/m2"
-            )
-            raise input_error(Path(run.path) / "heat_flux", reason)
 
 
 def of_fire(run: Run) -> list[str]:
     """List the warnings that concern a run's fire: gaps of heat flux, an assumed cell size, and cliffs."""
-    _check_flux(run)
+    bounds.check_flux(run)
     gaps = [text for text in _of_values(run) if text.startswith("heat_flux")]
     return [*gaps, *_single_cell(run), *_cliffs(run)]
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import small_run
 from firetwin.jobs import convert
-from firetwin.run import content, labels, observations, readers
+from firetwin.run import bounds, content, labels, observations, readers
 from firetwin.run.models import netcdf, raster, write
 from firetwin.run.readers import pyretechnics
 from firetwin.shot.cameras import track
@@ -68,7 +68,7 @@ READERS = {
     "labels": (lambda path: labels.read(path.with_name("l.csv")), labels.__name__ + ":_csv"),
     "track": (lambda path: track.read(path.with_name("t.gpx")), track.__name__ + ":_validated"),
     "scene file": (lambda path: scene_file.read(path.with_name("s.toml")), scene_file.__name__ + ":parse"),
-    "run folder": (lambda path: readers.open(path.parent), readers.__name__ + ":_check_years"),
+    "run folder": (lambda path: readers.open(path.parent), bounds.__name__ + ":check_times"),
     "model's folder": (lambda path: readers.gathered([path.parent]), "pathlib:Path.iterdir"),
     "model": (_convert, pyretechnics.__name__ + ":_grid"),
     "model's field": (_convert, write.__name__ + ":on_run_grid"),

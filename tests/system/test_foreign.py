@@ -53,5 +53,5 @@ def test_the_field_run_takes_a_models_folder_too(panel, file, monkeypatch, tmp_p
     monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
     panel.run = str(tmp_path / "model")
     assert "needs the Python package netCDF4; install it with: " in panel.problem
-    assert "-m pip install netCDF4 pyproj pyshp rasterio" in panel.problem
+    assert "-m pip install 'firetwin[models]'" in panel.problem
     assert not (tmp_path / "model_run").exists()

@@ -76,7 +76,7 @@ def test_a_full_disk_is_a_message_and_what_was_there_stays(panel, blend, run, ti
     monkeypatch.undo()
     assert not queue.items
     with pytest.raises(InputError, match="the disk is full"):
-        build_job.save(place / "scene.blend")
+        build_job.save(place / "scene.blend", print)
     panel.output = str(blend.parent / "out")
     assert state() == before
     whole = scene_file.read(blend.with_suffix(".toml"))

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ... import files, output
 from ...errors import Error, InputError, input_error, reading, writing
 from ...progress import Progress, size
-from .. import opening
+from .. import bounds, opening
 from .model import LONGEST, Model
 
 JOURNAL = "journal.json"
@@ -114,7 +114,10 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
 def _check(part: Path, model: Model) -> None:
     """Open the new run as a check; remove the result of a damaged model if this fails."""
     try:
-        opening.open(part)
+        run = opening.open(part)
+        bounds.check_times(run)
+        bounds.check_heights(run)
+        bounds.check_flux(run)
     except InputError as error:
         shutil.rmtree(part, ignore_errors=True)
         reason = f"makes no run: {Path(error.path).stem}: {error.reason}; it is most likely damaged"

@@ -18,12 +18,11 @@ import zipfile
 from pathlib import Path
 from types import ModuleType
 
-import numpy as np
 from firetwin_core.run import Run
 
-from ... import limits, plugins
+from ... import plugins
 from ...errors import Error, input_error, reading
-from .. import opening, times
+from .. import bounds, opening
 from . import folder
 
 _MANY = 200_000  # files of a folder
@@ -49,46 +48,9 @@ def open(path: str | Path) -> Run:
             reason = f"is a fire model's own output; make a run of it: firetwin convert {path} --out RUN"
             raise input_error(path, reason)
         found = folder.open(path) if folder.sniff(path) else opening.open(path)  # which reports errors
-        _check_years(found)
-        _check_heights(found)
+        bounds.check_times(found)
+        bounds.check_heights(found)
         return found
-
-
-def _check_years(run: Run) -> None:
-    """Check that the times of a run are dates of Python and of ISO 8601, also in other time zones.
-
-    Raises
-    ------
-    InputError
-        They are not.
-    """
-    first, last = limits.RUN_YEARS
-    try:
-        years = [times.utc(run, float(run.times[index])).year for index in (0, -1)]
-    except OverflowError:
-        years = [0]
-    if not all(first <= year <= last for year in years):
-        reason = f"has times outside of the years {first} to {last}; correct start, interval_s or times_s"
-        raise input_error(Path(run.path) / "run.toml", reason)
-
-
-def _check_heights(run: Run) -> None:
-    """Check that the elevation of a run is one of the Earth's surface.
-
-    Raises
-    ------
-    InputError
-        It is not.
-    """
-    low, high = limits.RUN_HEIGHTS
-    outside = np.argwhere((run.elevation < low) | (run.elevation > high))
-    if len(outside):
-        row, column = outside[0]
-        reason = (
-            f"has an elevation of {run.elevation[row, column]:,.6g} m in row {row + 1}, column {column + 1}, "
-            f"and {low:,} to {high:,} m are possible; write it in metres, and NaN where it is unknown"
-        )
-        raise input_error(Path(run.path) / "elevation", reason)
 
 
 def foreign(path: Path) -> bool:

@@ -252,7 +252,8 @@ def test_another_job_is_not_overwritten(tmp_path):
 entry = st.builds(
     Entry,
     *(st.text(), st.integers(0, 10**12), st.text("0123456789abcdef", min_size=64, max_size=64), st.text()),
-    *(st.text(), st.text(), st.integers(1, 10**6), st.text()),
+    *(st.text(), st.text(), st.integers(1, 10**6), st.text(), st.text()),
+    st.none() | st.floats(allow_nan=False),
 )
 
 

@@ -80,6 +80,14 @@ def test_what_makes_no_run_leaves_none(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
 
 
+def test_heights_that_no_run_can_have_leave_none(tmp_path):
+    paths, options = damage.files_of("lcp", tmp_path)
+    paths[0].write_bytes(paths[0].read_bytes()[:7316] + b"\xff\x7f" * (17 * 17 * 8))  # 32,767 m
+    with pytest.raises(InputError, match=r"makes no run: elevation: has an elevation of 32,767 m"):
+        in_process(paths, tmp_path / "out", **options)
+    assert not (tmp_path / "out").exists()
+
+
 def test_a_process_that_crashes_is_one_line(tmp_path, monkeypatch, capfd):
     paths, _ = damage.files_of("forefire", tmp_path)
     child_work.importable(monkeypatch)
