@@ -9,7 +9,7 @@ from typing import Any
 
 from ..jobs import render
 from ..progress import MessageCallback, Progress, no_message, silent
-from ..render import dataset, fingerprint, manifest
+from ..render import dataset, fingerprint
 from ..render.fingerprint import Fingerprints
 from ..render.picture import Picture
 from ..render.store import Store
@@ -95,7 +95,7 @@ def add_to_store(store: Store, intact: Iterable[list[Entry]], made_with: Fingerp
     for made in intact:
         if not store.is_intact(made[0].fingerprint, [each.path for each in made]):
             pair = made[0].camera, made[0].name
-            new[pair] |= {each.path: each.as_row() | manifest.credit_entry(made_with[pair]) for each in made}
+            new[pair] |= {each.path: each.as_row() for each in made}
     for pair, found in new.items():
         store.add(made_with[pair], found)
 

@@ -1,8 +1,8 @@
 """Log of finished files: each attempt at a task appends to a separate log. Runs without Blender.
 
 ``farm/entries/00012-0123456789ab.jsonl`` starts with a line on the start of the attempt, has one line per
-finished file, [path, bytes, sha256, fingerprint, camera, pass, frame, time, clock], and ends with a line on
-the end of the attempt. No other process writes to it. Incomplete lines are ignored.
+finished file, [path, bytes, sha256, fingerprint, camera, pass, frame, time, further values], and ends with a
+line on the end of the attempt. No other process writes to it. Incomplete lines are ignored.
 """
 
 from __future__ import annotations
@@ -42,10 +42,8 @@ class Entry(NamedTuple):
         Name of the pass.
     time
         UTC of the frame, ISO 8601.
-    clock
-        Frame rate and time zone in the header of an EXR file (see `render.exr_clock`); "" for other files.
-    exposure
-        Exposure of a picture in visible light, stops; None for other files.
+    more
+        Further values of its entry in the store: credits, exposure, clock of an EXR file.
     """
 
     path: str
@@ -56,8 +54,7 @@ class Entry(NamedTuple):
     name: str
     frame: int
     time: str
-    clock: str = ""
-    exposure: float | None = None
+    more: dict[str, Any]
 
     def is_intact(self, out: Path) -> bool:
         """Check that the file exists with this content."""
@@ -69,10 +66,17 @@ class Entry(NamedTuple):
 
     def as_row(self) -> dict[str, Any]:
         """Convert to a row of a store."""
-        found = self._asdict()
-        del found["path"], found["fingerprint"]
-        found["pass"] = found.pop("name")
-        return {name: value for name, value in found.items() if value not in ("", None)}
+        row = self._asdict()
+        del row["path"], row["fingerprint"]
+        row["pass"] = row.pop("name")
+        return row | row.pop("more")
+
+    @classmethod
+    def of_row(cls, path: str, fingerprint: str, row: dict[str, Any]) -> Entry:
+        """Convert from a row of a store."""
+        rest = dict(row)
+        own = {name: rest.pop(name) for name in ("bytes", "sha256", "camera", "frame", "time")}
+        return cls(path=path, fingerprint=fingerprint, name=rest.pop("pass"), more=rest, **own)
 
 
 @dataclass
@@ -107,8 +111,9 @@ class Attempt:
 
     @property
     def entries(self) -> list[Entry]:
-        """Finished files."""
-        return [Entry(*line) for line in _lines(self.text) if isinstance(line, list)]
+        """Finished files; lines of other versions of Firetwin are ignored."""
+        lists = [line for line in _lines(self.text) if isinstance(line, list)]
+        return [Entry(*line) for line in lists if len(line) == len(Entry._fields)]
 
     @functools.cached_property
     def paths(self) -> set[str]:

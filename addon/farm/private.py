@@ -53,11 +53,8 @@ class PrivateFolder:
             rows = store.data.fetch_all(query, self.published)
         entries = []
         for _, path, key, text in rows:
-            made = json.loads(text)
             files.write(self.out / path, functools.partial(_link_or_copy, self.folder / path))
-            content = made["bytes"], made["sha256"], key
-            of = made["camera"], made["pass"], made["frame"], made["time"]
-            entries.append(Entry(path, *content, *of, made.get("clock", ""), made.get("exposure")))
+            entries.append(Entry.of_row(path, key, json.loads(text)))
         if entries:
             before, self.published = self.published, rows[-1][0]
             try:

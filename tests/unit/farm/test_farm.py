@@ -24,7 +24,7 @@ from firetwin.farm.engines.slurm import split_arrays
 from firetwin.farm.entries import Entry
 from firetwin.farm.plan import Job, Task
 from firetwin.farm.private import PrivateFolder, verified_entries
-from firetwin.render import fingerprint
+from firetwin.render import fingerprint, manifest
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
 from firetwin.run import content
@@ -36,6 +36,7 @@ from firetwin.smoke.sources.flow import FlowSource
 from hypothesis import given
 from hypothesis import strategies as st
 
+NOW = "2014-09-17T23:12:00+00:00"
 VERSIONS = {"firetwin": "0", "blender": "4.5.15"}
 CAMERA = """\
 [[cameras]]
@@ -252,8 +253,8 @@ def test_another_job_is_not_overwritten(tmp_path):
 entry = st.builds(
     Entry,
     *(st.text(), st.integers(0, 10**12), st.text("0123456789abcdef", min_size=64, max_size=64), st.text()),
-    *(st.text(), st.text(), st.integers(1, 10**6), st.text(), st.text()),
-    st.none() | st.floats(allow_nan=False),
+    *(st.text(), st.text(), st.integers(1, 10**6), st.text()),
+    st.dictionaries(st.text(), st.floats(allow_nan=False) | st.lists(st.text())),
 )
 
 
@@ -290,22 +291,37 @@ def render(out, made_with, number, frames, ended: int | None = 0, content_of=b"p
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_bytes(content_of % frame)
                 about = describe(file)
-                log.write(Entry(path, about["bytes"], about["sha256"], key, "drone", "rgb", frame, "now"))
+                log.write(Entry(path, about["bytes"], about["sha256"], key, "drone", "rgb", frame, NOW, {}))
         if ended is not None:
             log.end(ended, "" if ended == 0 else "no luck")
 
 
-def test_a_farm_keeps_the_facts_of_a_picture(tmp_path):
-    facts = {"camera": "drone", "pass": "rgb", "frame": 2, "time": "now", "clock": "24 UTC", "exposure": 3.25}
-    own, path = tmp_path / "own", "drone_rgb_000002.exr"
+def test_a_film_of_a_farm_has_the_entries_of_its_tasks(film):
+    out, made_with = film
+    render(out, made_with, 1, [1, 2])
+    render(out, made_with, 2, [4])
+    own, paths = out / "own", Picture("drone", 3, "rgb").files()
+    rows = {}
     with Store(own, create=True) as store:
-        (own / path).write_bytes(b"picture")
-        facts |= describe(own / path)
-        store.add({}, {path: facts})
-    with entries.attempt(tmp_path, 1) as log:
-        PrivateFolder(own, tmp_path, log).publish()
-    ((entry,),) = (each.entries for each in entries.attempts(tmp_path, 1))
-    assert entry.as_row() == facts
+        for path in paths:
+            (own / path).parent.mkdir(parents=True, exist_ok=True)
+            (own / path).write_bytes(b"picture")
+            about = {"camera": "drone", "pass": "rgb", "frame": 3, "time": NOW} | describe(own / path)
+            credits = {"credits": ["Data A"], "services": ["Logo B"], "missing_tiles": ["t.glb"]}
+            rows[path] = about | credits | {"exposure": 3.25, "clock": "24 UTC"}
+        store.add(made_with["drone", "rgb"], rows)
+    with entries.attempt(out, 2) as log:
+        PrivateFolder(own, out, log).publish()
+    intact, missing = assemble.check_pictures(plan.read(out), out, made_with)
+    with Store(out, create=True) as store:
+        assemble.add_to_store(store, intact, made_with)
+        store.export()
+    found = manifest.read(out)["files"]
+    key = content.fingerprint(made_with["drone", "rgb"])
+    assert not missing
+    assert {path: found[path] for path in paths} == {
+        path: row | {"settings": key} for path, row in rows.items()
+    }
 
 
 def test_assemble_names_what_is_missing_and_refuses_what_is_damaged(film):
