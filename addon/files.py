@@ -52,14 +52,8 @@ def write(
     path: Path,
     put: Callable[[Path], object],
     durable: bool = True,
-    give_name: Callable[[Path, Path], None] | None = None,
 ) -> None:
     """Write a file atomically: ``put(part)`` writes a temporary file, which is then renamed (see `publish`).
-
-    Parameters
-    ----------
-    give_name
-        Called with the temporary file and `path` in place of `publish`.
 
     Raises
     ------
@@ -71,10 +65,7 @@ def write(
         with writing(path):
             path.parent.mkdir(parents=True, exist_ok=True)
             put(part)
-        if give_name is None:
-            publish(part, path, durable)
-        else:
-            give_name(part, path)
+        publish(part, path, durable)
     finally:
         with contextlib.suppress(OSError):
             part.unlink(missing_ok=True)

@@ -10,10 +10,9 @@ from __future__ import annotations
 import os
 import stat
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 
-from . import files, written
+from . import files, unfinished, written
 from .errors import input_error, writing
 
 REMEDY = "choose another name, or add --overwrite"
@@ -58,7 +57,7 @@ def check(path: Path, overwrite: bool = False, root: Path | None = None) -> None
 
 
 def write(path: Path, put: Callable[[Path], object], overwrite: bool = False) -> None:
-    """Write a file by the rule, atomically: ``put(part)`` writes a temporary file, which is then renamed.
+    """Write a file by the rule, atomically: ``put(part)`` writes it in a temporary folder.
 
     Raises
     ------
@@ -66,7 +65,9 @@ def write(path: Path, put: Callable[[Path], object], overwrite: bool = False) ->
         `path` may not be replaced, the disk is full, or the folder cannot be written.
     """
     check(path, overwrite)
-    files.write(path, put, give_name=partial(publish, overwrite=overwrite))
+    with unfinished.folder(path) as folder:
+        put(folder / path.name)
+        publish(folder / path.name, path, overwrite)
 
 
 def write_text(path: Path, text: str, overwrite: bool = False, newline: str | None = None) -> None:

@@ -1,28 +1,20 @@
 """Atomic writes of several files and of folders: they get their names after all content is complete.
 
 Files are replaced one by one, by the rule of `output`; no folder is removed with its content, and no link is
-followed. A killed process leaves a temporary folder, which the next call removes.
+followed.
 """
 
 from __future__ import annotations
 
 import contextlib
 import os
-import re
-import shutil
 import stat
-import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from . import output, written
-from .errors import InputError, input_error, writing
-
-try:
-    import fcntl
-except ImportError:  # Windows: temporary folders of killed processes stay
-    fcntl = None  # type: ignore[assignment]
+from . import output, unfinished, written
+from .errors import InputError, input_error
 
 
 @contextmanager
@@ -46,10 +38,9 @@ def staging(out: Path, overwrite: bool = False, is_run: bool = False) -> Iterato
     """
     out = out.absolute()
     output.refuse_run_folders(out if is_run else out / "file")
-    part = _part(out)
-    rests(out.parent, re.escape(out.name))
+    part = out
     try:
-        with _temporary(part, out):
+        with unfinished.folder(out) as part:
             yield part
             _sync(part)
             _move(part, out, overwrite, is_run)
@@ -69,69 +60,9 @@ def new_folder(path: Path) -> Iterator[Path]:
     InputError
         The disk is full, the folder cannot be written, or the name is not free.
     """
-    part = _part(path)
-    rests(path.parent, re.escape(path.name))
-    with _temporary(part, path):
+    with unfinished.folder(path) as part:
         yield part
         part.rename(path)
-
-
-def rests(folder: Path, pattern: str) -> list[str]:
-    """Remove temporary folders in a folder that killed processes left; return names of those in use.
-
-    Parameters
-    ----------
-    pattern
-        Regular expression of the names that the temporary folders would get.
-    """
-    in_use = []
-    with contextlib.suppress(OSError):
-        for each in folder.iterdir():
-            part = re.fullmatch(rf"\.(?P<name>{pattern})\.[0-9a-f]{{12}}\.part", each.name)
-            if part and each.is_dir() and not each.is_symlink():
-                with locked(each) as is_alone:
-                    if is_alone:
-                        shutil.rmtree(each, ignore_errors=True)
-                    else:
-                        in_use.append(part["name"])
-    return in_use
-
-
-@contextmanager
-def locked(folder: Path, wait: bool = False) -> Iterator[bool]:
-    """Lock a folder until the end of the block or of the process; False if another process has it."""
-    if fcntl is None:
-        yield wait
-        return
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-            is_alone = True
-        except OSError:  # also file systems without locks
-            is_alone = False
-        yield is_alone
-    finally:
-        os.close(handle)
-
-
-def _part(path: Path) -> Path:
-    return path.with_name(f".{path.name}.{uuid.uuid4().hex[:12]}.part")
-
-
-@contextmanager
-def _temporary(part: Path, path: Path) -> Iterator[None]:
-    """Make a locked folder and remove it at the end; errors name `path`."""
-    try:
-        with writing(path), contextlib.ExitStack() as life:
-            while not part.is_dir():  # `rests` of another process may remove it before it is locked
-                life.close()
-                part.mkdir(parents=True)
-                with contextlib.suppress(FileNotFoundError):
-                    life.enter_context(locked(part, wait=True))
-            yield
-    finally:
-        shutil.rmtree(part, ignore_errors=True)
 
 
 def _move(part: Path, out: Path, overwrite: bool, whole: bool) -> None:

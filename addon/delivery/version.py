@@ -13,9 +13,10 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from .. import files, output, staging
+from .. import files, output, unfinished
 from ..errors import UsageError, input_error, writing
 from ..progress import Progress, silent
+from ..staging import new_folder
 from .names import File, Selection
 
 MANIFEST, SUMS, LATEST = "manifest.json", "SHA256SUMS", "latest"
@@ -59,8 +60,7 @@ def write(
             delivered[_copy(each, part, path.name)] = each
         progress(len(chosen.files), len(chosen.files), "copying")
         _list(part, number, delivered)
-    with writing(out / LATEST), staging.locked(out, wait=True):
-        _remove_rests(out)
+    with writing(out / LATEST), unfinished.locked(out, wait=True):
         _point(out, _folder(max(_numbers(out))), overwrite)
     return path
 
@@ -71,15 +71,15 @@ def _version(out: Path, number: int | None) -> Iterator[tuple[Path, Path]]:
     with contextlib.ExitStack() as life:
         with writing(out):
             out.mkdir(parents=True, exist_ok=True)
-        with staging.locked(out, wait=True):
-            unfinished = staging.rests(out, _VERSION)
+        with unfinished.locked(out, wait=True):
+            begun = unfinished.rests(out, _VERSION)
             if number is None:
-                number = max([*_numbers(out), *(int(each[1:]) for each in unfinished)], default=0) + 1
+                number = max([*_numbers(out), *(int(each[1:]) for each in begun)], default=0) + 1
             path = out / _folder(number)
-            if os.path.lexists(path) or path.name in unfinished:
+            if os.path.lexists(path) or path.name in begun:
                 text = "exists, and a delivered version is never overwritten; omit --version"
                 raise UsageError(f"--version: {path} {text}")
-            part = life.enter_context(staging.new_folder(path))
+            part = life.enter_context(new_folder(path))
         yield part, path
 
 
@@ -128,21 +128,13 @@ def _check_latest(out: Path, overwrite: bool) -> None:
         output.check(out / f"{LATEST}.txt", overwrite)
 
 
-def _remove_rests(out: Path) -> None:
-    """Remove temporary links and files of `latest` that killed processes left; the folder is locked."""
-    for each in out.iterdir():
-        if re.fullmatch(rf"\.{LATEST}\.[0-9a-f]{{12}}\.part(\.txt)?", each.name):
-            with contextlib.suppress(OSError):
-                each.unlink()
-
-
 def _point(out: Path, version: str, overwrite: bool) -> None:
     """Point the link `latest` to a version; a text file names it where links are not possible."""
-    link, part = out / LATEST, files.temporary_path(out / LATEST)
+    link = out / LATEST
     if link.is_symlink() or not link.exists():
-        with contextlib.suppress(OSError, NotImplementedError):
-            part.symlink_to(version, target_is_directory=True)
-            part.replace(link)
+        with contextlib.suppress(OSError, NotImplementedError), unfinished.folder(link) as part:
+            (part / LATEST).symlink_to(version, target_is_directory=True)
+            (part / LATEST).replace(link)
             return
     output.write_text(out / f"{LATEST}.txt", f"{version}\n", overwrite)
 

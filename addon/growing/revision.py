@@ -20,7 +20,8 @@ from ..errors import InputError, input_error, reading
 from ..run import opening
 from ..run.models import netcdf, write
 from ..run.models.model import Model
-from ..staging import new_folder, rests
+from ..staging import new_folder
+from ..unfinished import rests
 from . import watched
 from .watched import Accepted
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .. import files, output
+from .. import output, unfinished
 from ..errors import disk_is_full, full_disk_error, input_error, is_nearly_full
 from ..progress import READING, MessageCallback, Progress, count, no_message, notify_if_slow, silent
 from ..shot.cameras import camera_warnings
@@ -68,14 +67,8 @@ def run(
 def _writable(out: Path) -> None:
     """Check before the build that the file can be written."""
     output.check_blend(out)
-    try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        part = files.temporary_path(out)
-        part.touch()
-        part.unlink()
-    except OSError as error:
-        reason = f"cannot be written ({error.strerror}); choose another folder"
-        raise input_error(out, reason) from None
+    with unfinished.folder(out):
+        pass
 
 
 def in_blender(
@@ -104,7 +97,7 @@ def in_blender(
         _build_live(shot, stage.scene, progress, tell)
     viewport.prepare_file()
     volume_files.make_paths_relative(out)
-    save(out, tell, relative_remap=False)
+    save(out, tell)
     filmed = bake.shot_frames(shot) if shot.settings.smoke.enabled else ()
     return len(volume_files.missing(stage, filmed))
 
@@ -120,15 +113,13 @@ def _build_live(shot: Shot, scene: bpy.types.Scene, progress: Progress, tell: Me
     tell(f"live scene: {cost.measure(scene, True).text()}")
 
 
-def save(out: Path, tell: MessageCallback, **how: bool) -> None:
-    """Save Blender's current file as `out`, atomically by way of a temporary name.
+def save(out: Path, tell: MessageCallback) -> None:
+    """Save Blender's current file as `out`, atomically; its relative paths stay as they are.
 
     Parameters
     ----------
     tell
         Called with a message if a file of others was renamed (see `output.publish_blend`).
-    how
-        More arguments for `bpy.ops.wm.save_as_mainfile`.
 
     Raises
     ------
@@ -137,17 +128,14 @@ def save(out: Path, tell: MessageCallback, **how: bool) -> None:
     """
     import bpy
 
-    part = files.temporary_path(out)
     bpy.context.preferences.filepaths.save_version = 0
-    try:
-        bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, **how)
-        if former := output.publish_blend(part, out):
-            tell(f"{out.name} was not Firetwin's, or had changed; it is now {former.name}")
-    except RuntimeError as error:
-        if disk_is_full(error) or is_nearly_full(out):
-            raise full_disk_error(out) from None
-        reason = f"cannot be written: {' '.join(str(error).split())}"
-        raise input_error(out, reason) from None
-    finally:
-        with contextlib.suppress(OSError):
-            part.unlink(missing_ok=True)
+    with unfinished.folder(out) as folder:
+        try:
+            bpy.ops.wm.save_as_mainfile(filepath=str(folder / out.name), compress=True, relative_remap=False)
+            if former := output.publish_blend(folder / out.name, out):
+                tell(f"{out.name} was not Firetwin's, or had changed; it is now {former.name}")
+        except RuntimeError as error:
+            if disk_is_full(error) or is_nearly_full(out):
+                raise full_disk_error(out) from None
+            reason = f"cannot be written: {' '.join(str(error).split())}"
+            raise input_error(out, reason) from None

@@ -26,7 +26,6 @@ import numpy as np
 import pytest
 from firetwin import cli, leases, output
 from firetwin.dataset import produce
-from firetwin.errors import writing
 from firetwin.farm import plan
 from firetwin.render import store
 from firetwin.render.store import Store
@@ -246,16 +245,15 @@ def _allocate(patch: Patch) -> None:
 
 def _no_work(patch: Patch, out: Path) -> None:
     """Replace the worker of Blender by one that saves a .blend file."""
-    from firetwin import files
+    from firetwin import unfinished
     from firetwin.jobs import build, worker
     from firetwin.jobs.tiles import imagery, selection
     from firetwin.shot.source import ShotSource
 
     def save(*_: object, **__: object) -> int:
-        part = files.temporary_path(out)
-        with writing(out):
-            part.write_bytes(b"BLENDER")
-        output.publish_blend(part, out.absolute())
+        with unfinished.folder(out) as folder:
+            (folder / out.name).write_bytes(b"BLENDER")
+            output.publish_blend(folder / out.name, out.absolute())
         return 0
 
     _scene(patch)
@@ -523,7 +521,7 @@ def killed(door: Door, path: Path) -> Outcome:
             return LOST
         steps += 1
     done = call(door)
-    rests = [each for each in Path().rglob("*.part") if each.is_dir()]
+    rests = [*Path().rglob(".*.part*")]
     return REPLACED if done.status == 0 and path.is_file() and not rests and before else done.said
 
 

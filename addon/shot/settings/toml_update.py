@@ -17,7 +17,7 @@ import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT
 
-from ... import files
+from ... import files, unfinished
 from ...errors import Error
 from ...toml_text import Where, places, tables
 from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
@@ -52,7 +52,10 @@ def save(whole: Settings) -> None:
     except (OSError, UnicodeDecodeError):
         raw, new = b"", text(whole)
     newline = "\r\n" if b"\r\n" in raw else "\n"
-    files.write_text(path, new, newline)
+    with unfinished.folder(path) as folder:
+        part = folder / path.name
+        part.write_text(new, encoding="utf-8", newline=newline)
+        files.publish(part, path)
 
 
 def updated(there: str, whole: Settings) -> str:

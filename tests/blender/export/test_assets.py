@@ -1,5 +1,7 @@
 """The asset library: its content, and that Blender lists it as assets."""
 
+import contextlib
+
 import pytest
 from firetwin.errors import InputError
 from firetwin.jobs import assets as job
@@ -26,5 +28,6 @@ def test_a_library_of_somebody_else_stays(tmp_path):
 @pytest.mark.parametrize(("full", "words"), [(True, "the disk is full"), (False, "cannot be written")])
 def test_a_file_that_cannot_be_saved_is_one_clear_error(tmp_path, monkeypatch, full, words):
     monkeypatch.setattr(build, "is_nearly_full", lambda path: full)
+    monkeypatch.setattr(build.unfinished, "folder", lambda path: contextlib.nullcontext(tmp_path / "gone"))
     with pytest.raises(InputError, match=rf"away.{job.BLEND}: {words}"):
         build.save(tmp_path / "away" / job.BLEND, print)

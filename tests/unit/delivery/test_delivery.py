@@ -177,8 +177,8 @@ def test_two_deliveries_at_once_get_two_numbers(finished, tmp_path):
 def test_deliveries_of_processes_get_numbers_of_their_own_and_remove_rests(finished, tmp_path):
     chosen, out = names.choose(finished, PATTERN, 1001), tmp_path / "delivered"
     (out / ".v001.0123456789ab.part").mkdir(parents=True)
-    (out / ".latest.0123456789ab.part").symlink_to("v001")
-    (out / ".latest.0123456789ab.part.txt").touch()
+    (out / ".latest.0123456789ab.part").mkdir()
+    (out / ".latest.0123456789ab.part" / "latest").symlink_to("v001")
     children = []
     for _ in range(3):
         children.append(os.fork())
