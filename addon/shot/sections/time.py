@@ -15,7 +15,8 @@ from ...did_you_mean import suggestion
 from ..schema import Where, key
 
 
-def _zone(value: str) -> str | None:
+def invalid_zone(value: str) -> str | None:
+    """Check the name of a time zone: error message, or None if valid; empty is valid."""
     if not value:
         return None
     try:
@@ -61,7 +62,10 @@ class Time:
         affects=("grain",),
     )
     zone: str = key(
-        "", "time zone of the clock in the films; empty: the run's zone", check=_zone, affects=("film",)
+        "",
+        "time zone of the clock in the films; empty: the run's zone",
+        check=invalid_zone,
+        affects=("film",),
     )
 
     @property

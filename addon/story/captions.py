@@ -1,0 +1,146 @@
+"""Captions of a film: words, local time and UTC, speed, and burned area, all from the run; as SRT and WebVTT.
+
+A caption stays for at least `_STEP` seconds, so that people can read it. Its numbers belong to the model time
+that it names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from typing import cast
+
+from firetwin_core.run import Run
+
+from ..run import info, measure, times
+from ..run.measure import Units
+from .storyboard import MAP, Storyboard
+from .timeline import Span
+
+SYNTHETIC = "synthetic"
+SEPARATOR = " | "
+_STEP, _MAP_STEP = 2.0, 1.0  # s; least time of a caption, and of one of the map
+_ROUND = (1, 60, 300, 600, 900, 1800, 3600, 10800)  # s; steps of clocks
+_REAL_TIME = 1.05  # times real time, below which the speed is called so
+
+
+@dataclass(frozen=True)
+class Caption:
+    """Caption of the frames from `first` to before `end` of a shot: its words, and facts of a model time.
+
+    Attributes
+    ----------
+    moment
+        Model time of the facts, UTC; None on cards.
+    """
+
+    span: Span
+    first: int
+    end: int
+    words: str
+    moment: datetime | None = None
+    facts: str = ""
+
+    @property
+    def text(self) -> str:
+        """Words and facts."""
+        return f"{self.words}\n{self.facts}".strip()
+
+
+def make(story: Storyboard, spans: Sequence[Span], run: Run) -> list[Caption]:
+    """Make the captions of a film, ascending."""
+    captions = [each for span in spans for each in _unfilled(story, span)]
+    moments = [times.seconds(run, each.moment) for each in captions if each.moment]
+    burned = iter(info.burned(run, moments) if moments else [])
+    return [_filled(story, run, each, next(burned)) if each.moment else each for each in captions]
+
+
+def _unfilled(story: Storyboard, span: Span) -> Iterator[Caption]:
+    """Yield the captions of a shot without facts; captions of one model time are joined."""
+    words, end = span.shot.caption.strip(), span.free
+    if span.moment(span.first) is None:
+        yield Caption(span, span.first, end, words)
+        return
+    step = max(round((_MAP_STEP if span.shot.picture == MAP else _STEP) * story.fps), 1)
+    steps = max((end - span.first) // step, 1)
+    firsts = [span.first + step * k for k in range(steps)]
+    moments = [_readable(span, first, step / story.fps) for first in firsts]
+    begin = 0
+    for k in range(1, steps + 1):
+        if k == steps or moments[k] != moments[begin]:
+            yield Caption(span, firsts[begin], end if k == steps else firsts[k], words, moments[begin])
+            begin = k
+
+
+def _readable(span: Span, frame: int, seconds: float) -> datetime:
+    """Return the model time of a frame, in steps that fit captions of `seconds` in the film."""
+    moment, start = span.moment(frame), span.shot.start
+    assert moment
+    assert start
+    most = 0.5 * seconds * span.shot.speed
+    step = timedelta(seconds=max((step for step in _ROUND if step <= most), default=_ROUND[0]))
+    return max(moment - (moment - datetime(moment.year, 1, 1, tzinfo=moment.tzinfo)) % step, start)
+
+
+def _filled(story: Storyboard, run: Run, caption: Caption, area: float) -> Caption:
+    """Add the facts to a caption: clocks, speed and area (m2)."""
+    assert caption.moment
+    parts = [
+        _clocks(caption.moment, story.zone or "UTC"),
+        speed_text(caption.span.shot.speed),
+        measure.area(area, cast(Units, story.units)),
+    ]
+    if run.synthetic:
+        parts.append(SYNTHETIC)
+    return Caption(
+        caption.span, caption.first, caption.end, caption.words, caption.moment, SEPARATOR.join(parts)
+    )
+
+
+def _clocks(moment: datetime, zone: str) -> str:
+    """Format local time and UTC: ``17 Sep 2014 19:00:02 PDT (18 Sep 02:00:02 UTC)``."""
+    local, utc = (times.text(moment, each, moment.second > 0) for each in (zone, "UTC"))
+    day, month, year, *clock = utc.split(" ")
+    if local.rpartition(" ")[0] == utc.rpartition(" ")[0]:
+        return utc
+    if local.startswith(f"{day} {month} {year} "):
+        return f"{local} ({' '.join(clock)})"
+    return f"{local} ({' '.join([day, month, *clock])})"
+
+
+def speed_text(speed: float) -> str:
+    """Format a speed: ``25 x``, or ``real time``."""
+    return "real time" if speed < _REAL_TIME else f"{float(f'{speed:.3g}'):,g} x"
+
+
+def srt(captions: Sequence[Caption], fps: int) -> str:
+    """Format captions as SubRip."""
+    return "\n".join(
+        f"{number}\n{_span(each, fps, ',')}\n{_plain(each)}\n" for number, each in enumerate(captions, 1)
+    )
+
+
+def vtt(captions: Sequence[Caption], fps: int) -> str:
+    """Format captions as WebVTT."""
+    cues = (f"{_span(each, fps, '.')}\n{_escaped(_plain(each))}\n" for each in captions)
+    return "\n".join(["WEBVTT\n", *cues])
+
+
+def _plain(caption: Caption) -> str:
+    """Return the text without empty lines, which end a cue."""
+    return "\n".join(line for line in caption.text.splitlines() if line.strip()).replace("-->", "->")
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def _span(caption: Caption, fps: int, mark: str) -> str:
+    """Format the times of a caption in the film: ``00:00:05,000 --> 00:00:07,000``."""
+    return " --> ".join(_clock((frame - 1) / fps, mark) for frame in (caption.first, caption.end))
+
+
+def _clock(seconds: float, mark: str) -> str:
+    whole, thousandths = divmod(round(seconds * 1000.0), 1000)
+    return f"{whole // 3600:02d}:{whole // 60 % 60:02d}:{whole % 60:02d}{mark}{thousandths:03d}"

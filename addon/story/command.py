@@ -1,0 +1,78 @@
+"""`firetwin story`: one film that tells a fire."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from .. import argument_types as types
+from ..command import FILMS, Command, add_overwrite, add_scene
+
+if TYPE_CHECKING:
+    from .storyboard import Storyboard
+
+_DETAIL = """\
+DIR/story.toml           storyboard: shots with reason, times, camera and caption
+DIR/story.srt, .vtt      captions
+
+The storyboard is chosen from the run if DIR has none; otherwise the storyboard there is used, with all its
+changes. Shots that the run cannot give are listed with the reason. Numbers in captions are computed from the
+run."""
+
+
+def _add(parser: argparse.ArgumentParser) -> None:
+    """Define the arguments."""
+    add_scene(parser)
+    parser.add_argument("--out", metavar="DIR", type=types.path, required=True, help="folder to write")
+    parser.add_argument("--units", choices=("us", "metric"), default="us", help="units of captions (us)")
+    add_overwrite(parser)
+
+
+def _run(arguments: argparse.Namespace) -> None:
+    """Write the story of a run or scene."""
+    from .. import output
+    from ..progress import result, say
+    from ..run import readers
+    from . import captions, story_file, timeline
+
+    paths = [arguments.out / f"story.{suffix}" for suffix in ("srt", "vtt")]
+    for path in paths:
+        output.check(path, arguments.overwrite)
+    story = _storyboard(arguments)
+    for each in story.omitted:
+        say(f"omitted: {each.name}: {each.reason}")
+    spans, run = timeline.lay_out(story), readers.open(story.run)
+    shown = captions.make(story, spans, run)
+    say(f"{len(spans)} shots, {timeline.frames(spans) / story.fps:.0f} s")
+    for path, write in zip(paths, (captions.srt, captions.vtt), strict=True):
+        output.write_text(path, write(shown, story.fps), arguments.overwrite, newline="\n")
+    for path in (arguments.out / story_file.NAME, *paths):
+        result(path)
+
+
+def _storyboard(arguments: argparse.Namespace) -> Storyboard:
+    """Read the storyboard of the folder; without one, choose and write it."""
+    from .. import output
+    from ..progress import say
+    from ..run import readers
+    from ..run.readers import folder
+    from ..shot.settings import scene_file
+    from . import choose, story_file
+
+    path = arguments.out / story_file.NAME
+    if path.exists() and not arguments.overwrite:
+        say(f"using the shots of {path}; delete it to choose them again")
+        return story_file.read(path)
+    scene, place = arguments.scene, None
+    run_folder = scene
+    if folder.sniff(scene):
+        scene = None
+    else:
+        settings = scene_file.read(scene)
+        run_folder, place = settings.run, settings.labels.file
+    story = choose.choose(readers.open(run_folder), path, scene, place, arguments.units)
+    output.write_text(path, story_file.text(story), arguments.overwrite, newline="\n")
+    return story
+
+
+COMMAND = Command("story", "make one film that tells a fire", _DETAIL, FILMS, _run, _add)

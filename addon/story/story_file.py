@@ -1,0 +1,78 @@
+"""Story file (story.toml): a storyboard, which people edit."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+from zoneinfo import ZoneInfo
+
+from ..errors import input_error, reading
+from ..files import read_text
+from ..limits import SETTINGS_BYTES
+from ..shot.schema import Field, fields, validate
+from ..shot.settings import toml_writer
+from ..shot.settings.scene_file import TableReader
+from ..toml_text import loads
+from .storyboard import Storyboard
+
+NAME = "story.toml"
+
+_HEAD = """\
+# Storyboard of a film: `firetwin story` renders it again after each change; pictures that match stay.
+# Change the order of the [[shots]], their times, lengths (seconds), captions and cameras, or delete shots.
+# picture = "card" shows the caption alone, "map" the growth on a map, and "scene" the view of a camera.
+# Cameras: globe, flight, ground, overview, chase, flank, satellite, or a camera of the scene file.
+# Camera positions are in shots/NAME.toml; delete that file to fit them to changed times."""
+
+
+def read(path: Path) -> Storyboard:
+    """Read and validate a story file; relative paths start at its folder.
+
+    Raises
+    ------
+    InputError
+        The error names the file, line and column, and the remedy.
+    """
+    with reading(path):
+        text = read_text(path, "utf-8-sig", most=SETTINGS_BYTES)
+    reader = TableReader(path, text, "story file")
+    story: Storyboard = reader.table(Storyboard, loads(path, text), ())
+    if invalid := validate(story):
+        raise reader.error(*invalid)
+    if not story.run.exists():
+        raise input_error(path, f"run: there is no {story.run}; check the path")
+    return story
+
+
+def text(story: Storyboard) -> str:
+    """Write a storyboard as the content of its file."""
+    head = [f"{line:<34}  # {part.key.described()}" for part, line in _lines(story, story, always=True)]
+    blocks = ["\n".join([_HEAD, "", *head])]
+    for name, tables in (("shots", story.shots), ("omitted", story.omitted)):
+        blocks += ["\n".join([f"[[{name}]]", *(line for _, line in _lines(story, each))]) for each in tables]
+    return "\n\n".join(blocks) + "\n"
+
+
+def _lines(story: Storyboard, table: Any, always: bool = False) -> Iterator[tuple[Field, str]]:
+    """Write keys of a table: all of them with `always`, else those that differ from their defaults."""
+    for part in fields(table.__class__):
+        value = getattr(table, part.name)
+        if part.tables or value is None or (value == part.default and not always):
+            continue
+        speed = table.speed if part.name == "seconds" else 0.0
+        remark = f"  # {float(f'{speed:.3g}'):,g} times real time" if speed else ""
+        yield part, f"{part.name} = {_value(story, value)}{remark}"
+
+
+def _value(story: Storyboard, value: Any) -> str:
+    """Write a value in TOML; times are in the story's zone, paths relative to its file."""
+    if isinstance(value, datetime):
+        return value.astimezone(ZoneInfo(story.zone or "UTC")).isoformat(timespec="milliseconds")
+    if isinstance(value, Path):
+        return toml_writer.quoted(Path(os.path.relpath(value, story.path.parent)).as_posix())
+    if isinstance(value, str):
+        return toml_writer.quoted(value)
+    return repr(value).lower()
