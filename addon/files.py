@@ -109,7 +109,11 @@ def read_text(
 
 
 def read_json(path: Path) -> Any:
-    """Read a JSON file (see `read_text`); it is also a ValueError if it is not JSON or nested too deeply."""
+    """Read a JSON file (see `read_text` and `check_text_size`).
+
+    It is also a ValueError if it is not JSON or nested too deeply.
+    """
+    check_text_size(path)
     try:
         return json.loads(read_text(path))
     except RecursionError:

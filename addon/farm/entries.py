@@ -20,8 +20,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .. import leases
-from ..errors import writing
+from .. import files, leases
+from ..errors import InputError, reading, writing
+from ..limits import SETTINGS_BYTES
 from ..run.content import sha256
 from .plan import job_dir
 
@@ -79,6 +80,10 @@ class Entry(NamedTuple):
         return cls(path=path, fingerprint=fingerprint, name=rest.pop("pass"), more=rest, **own)
 
 
+_ENTRY = str, int, str, str, str, str, int, str, dict
+"""Types of an entry's values."""
+
+
 @dataclass
 class Attempt:
     """One run of a task's command, read from its log.
@@ -113,7 +118,9 @@ class Attempt:
     def entries(self) -> list[Entry]:
         """Finished files; lines of other versions of Firetwin are ignored."""
         lists = [line for line in _lines(self.text) if isinstance(line, list)]
-        return [Entry(*line) for line in lists if len(line) == len(Entry._fields)]
+        return [
+            Entry(*line) for line in lists if len(line) == len(_ENTRY) and all(map(isinstance, line, _ENTRY))
+        ]
 
     @functools.cached_property
     def paths(self) -> set[str]:
@@ -155,9 +162,9 @@ def scheduler_job() -> str:
     if number := os.environ.get("SLURM_JOB_ID"):
         return f"slurm {number}"
     try:
-        described = Path(os.environ["_CONDOR_JOB_AD"]).read_text(encoding="utf-8", errors="replace")
+        described = files.read_text(Path(os.environ["_CONDOR_JOB_AD"]), errors="replace", most=SETTINGS_BYTES)
         ids = [re.search(rf"(?m)^{name}\s*=\s*(\d+)", described)[1] for name in ("ClusterId", "ProcId")]  # type: ignore[index]
-    except (KeyError, OSError, TypeError):
+    except (KeyError, OSError, TypeError, InputError):
         return ""
     return f"htcondor {'.'.join(ids)}"
 
@@ -178,7 +185,8 @@ def attempt(out: Path, number: int) -> Iterator[Log]:
 def attempts(out: Path, number: int | None = None) -> list[Attempt]:
     """Read all attempts, or the attempts at one task, sorted by their start."""
     paths = _folder(out).glob("*.jsonl" if number is None else f"{number:05d}-*.jsonl")
-    return sorted((_read(path) for path in paths), key=lambda each: each.began)
+    logs = [path for path in paths if re.match(r"\d+-", path.name)]
+    return sorted(map(_read, logs), key=lambda each: each.began)
 
 
 def by_path(found: list[Attempt]) -> dict[str, list[Entry]]:
@@ -191,16 +199,25 @@ def by_path(found: list[Attempt]) -> dict[str, list[Entry]]:
 
 
 def _read(path: Path) -> Attempt:
-    text = path.read_text(encoding="utf-8")
+    with reading(path):
+        text = files.read_text(path, errors="replace")
     whole = text[: text.rfind("\n") + 1]
     attempt = Attempt(int(path.name.partition("-")[0]), whole, path.stat().st_mtime)
     first, last = _value(whole.partition("\n")[0]), _value(whole[:-1].rpartition("\n")[2])
-    if isinstance(first, dict) and "began" in first:
-        attempt.began, attempt.host = first["began"], first["host"]
-        attempt.process, attempt.scheduled = first.get("process", 0), first.get("scheduled", "")
-    if isinstance(last, dict) and "ended" in last:
-        attempt.ended, attempt.message, attempt.last = last["ended"], last["message"], last["at"]
+    if begin := _checked(first, began=(int, float), host=str, process=int, scheduled=str):
+        attempt.began, attempt.host, attempt.process, attempt.scheduled = begin
+    if end := _checked(last, ended=int, message=str, at=(int, float)):
+        attempt.ended, attempt.message, attempt.last = end
     return attempt
+
+
+def _checked(line: Any, **types: type | tuple[type, ...]) -> list[Any]:
+    """Return values of a line by name; none if the line is not as this version writes it."""
+    if not isinstance(line, dict) or not all(
+        isinstance(line.get(name), each) for name, each in types.items()
+    ):
+        return []
+    return [line[name] for name in types]
 
 
 def _lines(text: str) -> list[Any]:
@@ -208,14 +225,14 @@ def _lines(text: str) -> list[Any]:
     lines = text.split("\n")[:-1]
     try:
         return list(json.loads(f"[{','.join(lines)}]"))
-    except ValueError:  # a crashed machine may leave any bytes
+    except (ValueError, RecursionError):  # a crashed machine may leave any bytes
         return [value for line in lines if (value := _value(line)) is not None]
 
 
 def _value(line: str) -> Any:
     try:
         return json.loads(line)
-    except ValueError:
+    except (ValueError, RecursionError):
         return None
 
 

@@ -16,6 +16,8 @@ import numpy as np
 from firetwin_core.run import Run
 
 from .. import files
+from ..errors import reading
+from ..limits import SETTINGS_BYTES
 from ..run import content
 
 _ARRIVAL = "fuel_arrival_time"
@@ -37,8 +39,9 @@ def write(run: Run, count: int, until: float, out: Path, identity: str) -> None:
     """
     folder, last = Path(run.path), float(run.times[count - 1])
     repeated = until > last
+    with reading(folder / "run.toml"):
+        description = tomllib.loads(files.read_text(folder / "run.toml", most=SETTINGS_BYTES))
     out.mkdir(parents=True)
-    description = tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))
     raw, zero = _raw_times(description, run)
     times = [*raw[:count], *([until + zero] if repeated else [])]
     for each in sorted(folder.iterdir()):

@@ -6,7 +6,7 @@ import uuid
 from functools import partial
 from pathlib import Path
 
-from .. import output
+from .. import files, output
 from ..errors import input_error
 from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
 from ..shot.source import ShotSource
@@ -95,7 +95,7 @@ def run(
 def _refuse_strangers(out: Path) -> None:
     """Refuse a folder that holds another asset library."""
     there = out / CATALOGUE
-    if there.exists() and identifier(CATALOGUES[0]) not in there.read_text("utf-8", errors="replace"):
+    if there.exists() and identifier(CATALOGUES[0]) not in files.read_text(there, errors="replace"):
         raise input_error(there, "belongs to another asset library; choose another folder")
 
 

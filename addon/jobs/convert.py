@@ -9,7 +9,9 @@ import tomllib
 from functools import partial
 from pathlib import Path
 
-from ..errors import Error, reading
+from .. import files
+from ..errors import Error, InputError, reading
+from ..limits import SETTINGS_BYTES
 from ..progress import MessageCallback, Progress, no_message, silent
 from . import worker
 
@@ -118,8 +120,9 @@ def _existing(folder: Path) -> Path:
 
 def _made_of(out: Path) -> str:
     try:
-        return str(tomllib.loads((out / "run.toml").read_text(encoding="utf-8"))["source"]["inputs"])
-    except (OSError, ValueError, KeyError, TypeError):
+        text = files.read_text(out / "run.toml", most=SETTINGS_BYTES)
+        return str(tomllib.loads(text)["source"]["inputs"])
+    except (OSError, InputError, ValueError, KeyError, TypeError, RecursionError):
         return ""
 
 

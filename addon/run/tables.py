@@ -8,6 +8,23 @@ from pathlib import Path
 
 from ..errors import input_error
 
+_HEADER = 100_000  # characters
+
+
+def read_header(path: Path, lines: Iterator[str]) -> str:
+    """Read the first line of a table.
+
+    Raises
+    ------
+    InputError
+        It is longer than any line of names.
+    """
+    header = next(lines, "")
+    if len(header) > _HEADER:
+        reason = f"its first line has {len(header):,} characters; name the columns in it"
+        raise input_error(path, reason, line=1)
+    return header
+
 
 def rows(
     path: Path, lines: Iterator[str], names: Mapping[str, set[str]], needed: Collection[str], help: str
@@ -28,7 +45,7 @@ def rows(
     InputError
         A column is missing, or the file is no such table.
     """
-    header = next(lines, "")
+    header = read_header(path, lines)
     comma = max(",;\t", key=header.count)
     try:
         columns = _columns(next(csv.reader([header], delimiter=comma), []), names)

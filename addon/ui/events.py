@@ -13,7 +13,7 @@ from . import run, station_data
 
 def list_events(panel: bpy.types.PropertyGroup) -> list[Event]:
     """Return events of the run in order of time, with station events once a thread has read them."""
-    moments = run.parse_facts(panel.facts)["moments"] if panel.facts else []
+    moments = run.parse_facts(panel.facts)["moments"]
     found = [Event(datetime.fromisoformat(time), words) for time, words in moments]
     return sorted([*found, *_station_arrivals(panel)], key=lambda event: event.time)
 

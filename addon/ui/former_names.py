@@ -13,8 +13,10 @@ from typing import Any
 
 import bpy
 
-from .. import progress
+from .. import files, progress
 from ..blender import compat, owned, stored_json
+from ..errors import InputError
+from ..limits import SETTINGS_BYTES
 from ..shot.schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, REMOVED, current
 
 
@@ -66,8 +68,8 @@ def update_presets() -> None:
     """Replace former names in the user's presets."""
     for folder in bpy.utils.preset_paths("firetwin"):
         for path in Path(folder).glob("*.py"):
-            with contextlib.suppress(OSError, UnicodeDecodeError):  # it stays as it is
-                text = path.read_text(encoding="utf-8")
+            with contextlib.suppress(OSError, UnicodeDecodeError, InputError):  # it stays as it is
+                text = files.read_text(path, most=SETTINGS_BYTES)
                 if (new := _with_present_names(text)) != text:
                     path.write_text(new, encoding="utf-8")
 

@@ -228,7 +228,7 @@ def _parse_list(part: Field, text: str) -> tuple[Any, ...]:
     kind = typing.get_args(part.type)[0]
     try:
         listed = json.loads(f"[{text}]")
-    except ValueError:
+    except (ValueError, RecursionError):
         if kind is not str:
             raise Error(f'{label(part.name)}: "{text}" is not a list; separate numbers with commas') from None
         listed = [each for word in text.split(",") if (each := word.strip().strip('"').strip())]

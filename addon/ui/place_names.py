@@ -39,8 +39,7 @@ def list_labels(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
     if explain_refusal(panel):
         return ()
     if not panel.labels.file:
-        places = run.parse_facts(panel.facts).get("places", ()) if panel.facts else ()
-        return tuple(labels.Label(*each) for each in places)
+        return tuple(labels.Label(*each) for each in run.parse_facts(panel.facts)["places"])
     path = Path(bpy.path.abspath(panel.labels.file))
     try:
         return _read(path, path.stat().st_mtime_ns)

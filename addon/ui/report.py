@@ -20,10 +20,9 @@ class FIRETWIN_PT_report(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin
-        facts = run.parse_facts(settings.facts) if settings.facts else None
-        if facts is None:
+        if not settings.facts:
             layout.label(text="Open a run first", icon="INFO")
-        for time, reported, area in facts["burned"] if facts else ():
+        for time, reported, area in run.parse_facts(settings.facts)["burned"]:
             column = layout.column(align=True)
             column.label(text=time)
             labelled_row(column, "Reported", 0.4).label(text=reported)

@@ -10,7 +10,7 @@ from typing import Any
 
 import bpy
 
-from ..blender import owned
+from ..blender import owned, stored_json
 from ..jobs.worker import StoppedError
 from ..run import readers
 from ..shot.settings import scene_file as file
@@ -19,6 +19,19 @@ from .job import InThread, Steps
 from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
 from .working import Working
+
+_FACTS: dict[str, stored_json.Shape] = {
+    "name": str,
+    "rows": [(str, str)],
+    "warnings": [str],
+    "first": str,
+    "last": str,
+    "zone": str,
+    "moments": [(datetime, str)],
+    "burned": [(str, str, str)],
+    "places": [(str, float, float, str)],
+}
+"""Facts of a run that panels show."""
 
 
 def on_run_changed(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -151,7 +164,7 @@ def _burned_areas(facts: dict[str, Any], unit: str) -> list[tuple[str, str, str]
 @functools.lru_cache(maxsize=8)
 def parse_facts(text: str) -> dict[str, Any]:
     """Parse the facts stored as text in the .blend file."""
-    return json.loads(text)
+    return stored_json.record(text, _FACTS)
 
 
 class FIRETWIN_PT_run(SidebarPanel, bpy.types.Panel):

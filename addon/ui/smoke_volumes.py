@@ -75,7 +75,7 @@ def store(scene: bpy.types.Scene, shot: Shot, chosen: ShotSource) -> None:
     from ..scene.smoke import notice
 
     stage = owned.stage(scene)
-    volume_files.store_source(stage, Path(chosen.scene).read_text(encoding="utf-8"), chosen.beside)
+    volume_files.store_source(stage, files.read_text(Path(chosen.scene)), chosen.beside)
     notice.build(shot.full, stage)
     refresh()
 

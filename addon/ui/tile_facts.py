@@ -8,12 +8,19 @@ from typing import Any
 
 import bpy
 
+from ..blender import stored_json
 from ..shot.shot import Shot
 from ..shot.tiles import tile_cut
 from ..shot.tiles.tile_cut import TileCut
 from . import tile_credits
 
 _LISTED = 5  # names of missing tiles
+_FACTS: dict[str, stored_json.Shape] = {
+    "sources": [str],
+    "lines": [(str, str)],
+    "missing": [str],
+    "credits": [str],
+}
 
 
 def remember_boxes(panel: bpy.types.PropertyGroup, found: list[dict[str, Any]]) -> None:
@@ -38,7 +45,7 @@ def remember_cut(panel: bpy.types.PropertyGroup, cut: TileCut, what: str) -> Non
         (what, f"{len(cut.tiles):,} tiles, {cut.triangles:,} triangles, {cut.bytes / 1e6:,.1f} MB"),
         ("Error", f"{cut.error:.3g} pixels"),
     ]
-    kept = read(panel.tile_facts)["sources"] if panel.tile_facts else []
+    kept = read(panel.tile_facts)["sources"]
     missing = [f"{len(cut.missing)} tiles are missing", *cut.missing[:_LISTED]] if cut.missing else []
     _store(panel, {"sources": kept, "lines": lines, "missing": missing, "credits": [*cut.logo, *cut.credits]})
 
@@ -52,7 +59,7 @@ def forget(panel: bpy.types.PropertyGroup) -> None:
 @functools.lru_cache(maxsize=8)
 def read(text: str) -> dict[str, Any]:
     """Facts from the stored text: `sources`, `lines`, `missing` and `credits`."""
-    return json.loads(text)
+    return stored_json.record(text, _FACTS)
 
 
 def _store(panel: bpy.types.PropertyGroup, facts: dict[str, Any]) -> None:

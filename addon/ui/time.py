@@ -88,7 +88,7 @@ def frame_at(settings: bpy.types.PropertyGroup, moment: datetime) -> float:
 
 def dated_events(settings: bpy.types.PropertyGroup) -> list[list[str]]:
     """Return dated events of the run: ISO text and description of each."""
-    return run.parse_facts(settings.facts)["moments"] if settings.facts else []
+    return run.parse_facts(settings.facts)["moments"]
 
 
 class FIRETWIN_MT_moments(bpy.types.Menu):
@@ -134,7 +134,7 @@ def _draw_event_buttons(layout: bpy.types.UILayout, settings: bpy.types.Property
 
 def _time_zone(settings: bpy.types.PropertyGroup) -> str:
     """Return the time zone of the clock: from the settings, else the run's."""
-    return settings.time.zone or (run.parse_facts(settings.facts).get("zone", "") if settings.facts else "")
+    return settings.time.zone or run.parse_facts(settings.facts)["zone"]
 
 
 def _format_local(moment: datetime, zone: str) -> str:
@@ -165,7 +165,7 @@ class FIRETWIN_PT_time(SidebarPanel, bpy.types.Panel):
         settings, layout = context.scene.firetwin, self.layout
         if panel_state.is_built(context.scene):
             _draw_clock(layout, settings)
-        facts = run.parse_facts(settings.facts) if settings.facts else {"first": "", "last": ""}
+        facts = run.parse_facts(settings.facts)
         ends = []
         for name, other, menu in (("start", "first", FIRETWIN_MT_start), ("end", "last", FIRETWIN_MT_end)):
             moment = _window_end(getattr(settings.time, name), facts[other])

@@ -35,7 +35,13 @@ class AllocationText(NamedTuple):
 @functools.lru_cache(maxsize=4)
 def describe(text: str) -> AllocationText:
     """Describe a result stored as JSON (see `allocation.suggestion.describe`)."""
-    found = json.loads(text)
+    try:
+        return _describe(json.loads(text))
+    except (LookupError, TypeError, ValueError, AttributeError, RecursionError, OverflowError):
+        return AllocationText("", ("", ""), ("The stored result cannot be read; suggest again",), ())
+
+
+def _describe(found: dict[str, Any]) -> AllocationText:
     blocks = [_division(each, found) for each in found["divisions"]]
     if left := found["left_out"]:
         blocks.append(Block("left_out", f"Resources left out: {len(left)}", "INFO", tuple(_cut(left))))

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import input_error
+from .. import tables
 from . import Detections
 from .feature import finite
 
@@ -27,6 +28,8 @@ def read(path: Path) -> Detections:
         The file is not a FIRMS table, or a row is invalid.
     """
     with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
+        tables.read_header(path, file)
+        file.seek(0)
         table = csv.DictReader(file)
         names = [name.strip().lower() for name in table.fieldnames or ()]
         if lacking := [name for name in _NEEDED if name not in names]:

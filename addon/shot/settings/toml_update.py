@@ -19,6 +19,7 @@ from tomlkit.items import AoT
 
 from ... import files, unfinished
 from ...errors import Error
+from ...limits import SETTINGS_BYTES
 from ...toml_text import Where, places, tables
 from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
 from . import Settings
@@ -47,6 +48,7 @@ def save(whole: Settings) -> None:
     """
     path = whole.path
     try:
+        files.check_size(path, SETTINGS_BYTES)
         raw = path.read_bytes()
         new = updated(raw.decode("utf-8-sig").replace("\r\n", "\n"), whole)
     except (OSError, UnicodeDecodeError):

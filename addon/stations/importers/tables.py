@@ -27,7 +27,7 @@ def column_names(line: str) -> dict[str, str]:
 def read_header(path: Path) -> dict[str, str]:
     """Map column names of a file, in lower case, to their spelling."""
     with path.open(encoding="utf-8-sig") as file:
-        return column_names(file.readline().strip())
+        return column_names(tables.read_header(path, file).strip())
 
 
 def rows(

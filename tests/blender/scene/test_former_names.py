@@ -74,6 +74,7 @@ def test_presets_of_the_last_version_are_updated(tmp_path, monkeypatch):
         "firetwin.tiles.error = 3.0\nfiretwin.tiles.trees = 'theirs'\n"
         "firetwin.tiles.use_geoid = False\n"
     )
+    (tmp_path / "other.py").symlink_to("/dev/zero")
     monkeypatch.setattr(bpy.utils, "preset_paths", lambda _: [str(tmp_path)])
     former_names.update_presets()
     assert path.read_text().splitlines()[3:] == [

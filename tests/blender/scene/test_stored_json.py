@@ -3,12 +3,22 @@
 import bpy
 import firetwin
 import pytest
+from firetwin.allocation.panel import text as allocation_text
 from firetwin.blender import owned
 from firetwin.scene import credits
 from firetwin.scene.camera import edit_detection
-from firetwin.ui import auto_framing, changed_settings, landmarks
+from firetwin.ui import auto_framing, changed_settings, events, landmarks, place_names, run, tile_facts, time
 
-ODD = ["no JSON", "[" * 100_000, "7", "[1, 2]", '{"ignition": 7, "frames": [1], "head": {}}', '[["a"], 7]']
+FACTS = '{"name": "a", "moments": [["", "b"]], "places": [["c", "d", 1, ""]], "sources": [7], "rows": 1}'
+ODD = [
+    FACTS,
+    "no JSON",
+    "[" * 100_000,
+    "7",
+    "[1, 2]",
+    '{"ignition": 7, "frames": [1], "head": {}}',
+    '[["a"], 7]',
+]
 
 
 @pytest.fixture
@@ -27,6 +37,12 @@ def test_texts_of_others_count_as_none(panel, text):
     assert panel.changed == ""
     changed_settings.store_digests(panel, {"terrain": "a"}, ("terrain",))
     assert auto_framing.framing_messages(panel) == []
+    panel.facts = panel.tile_facts = text
+    assert events.list_events(panel) == time.dated_events(panel) == []
+    assert place_names.list_labels(panel) == ()
+    assert run.parse_facts(text)["rows"] == tile_facts.read(text)["sources"] == []
+    assert run.parse_facts(text)["name"] == ("a" if text == FACTS else "")
+    assert "suggest again" in allocation_text.describe(text).head[0]
     obj = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     edit_detection.store_state(obj)
     obj["firetwin_made"] = text

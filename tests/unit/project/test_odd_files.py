@@ -12,19 +12,24 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 sys.path.append(str(Path(__file__).parents[2] / "helpers"))
+import bombs
 from file_readers import READERS, write_files
 from firetwin import memory
 from firetwin.dataset import finish, truth
 from firetwin.errors import Error
 from firetwin.escaped import escaped
-from firetwin.farm import submission
-from firetwin.growing import model_log, watched
+from firetwin.farm import entries, submission
+from firetwin.growing import known_run, model_log, watched
+from firetwin.jobs import assets, convert
 from firetwin.render import manifest
 from firetwin.run.models import grib2, raster
+from firetwin.shot.settings import Settings, toml_update
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forks, and limits the memory")
 
@@ -55,6 +60,13 @@ FILES = {
     "tileset": "tileset.json",
 }
 """File of each reader of `test_errors`."""
+
+
+def _known_run(path):
+    run = SimpleNamespace(path=path.parent, times=np.zeros(1), has=lambda _: False)
+    known_run.write(run, 1, 0.0, path.parent / "known", "")
+
+
 MORE = {
     "manifest": ("manifest.json", lambda path: manifest.read(path.parent)),
     "metadata of a sample": ("meta/000001.json", lambda path: truth.read(path.parent.parent, 1)),
@@ -64,11 +76,18 @@ MORE = {
     "state of a watch": (watched.STATUS, lambda path: watched.status(path.parent)),
     "projection of a shapefile": ("a.prj", READERS["shapefile"][0]),
     "projection of a raster": ("a.prj", lambda path: raster._prj(path)),
+    "conversion before": ("run.toml", lambda path: convert._made_of(path.parent)),
+    "known run": ("run.toml", _known_run),
+    "asset catalogue": (assets.CATALOGUE, lambda path: assets._refuse_strangers(path.parent)),
+    "saved scene file": ("s.toml", lambda path: toml_update.save(Settings(path=path))),
+    "attempt of a farm": ("farm/entries/00001-a.jsonl", lambda path: entries.attempts(path.parents[2])),
     "submission": ("farm/submitted.json", lambda path: submission.last_submission(path.parents[1])),
     "forecast": ("a.grib2", lambda path: grib2.read([path], {"MASSDEN"}, (), (0.0, 0.0, 1.0, 1.0))),
 }
-SILENT = {"model's log", "state of a watch"}
+SILENT = {"model's log", "state of a watch", "conversion before"}
 """Readers that take an odd file for a missing one."""
+WRITTEN = {"asset catalogue", "saved scene file"}
+"""Files that are written if they cannot be found."""
 ODD = {
     "pipe": os.mkfifo,
     "device": lambda path: path.symlink_to("/dev/zero"),
@@ -87,7 +106,9 @@ LARGE = {
     "nested JSON": lambda path: path.write_text("[" * 100_000),
     "nested TOML": lambda path: path.write_text("a = " + "[" * 100_000),
     "damaged": lambda path: path.write_bytes(b"\0\xff" * 1000),
+    "bomb": bombs.write,
 }
+REGULAR = "regular"
 HASHED = {("hashed file", "10 GB")}
 """A file that is only hashed is read completely, in pieces."""
 
@@ -123,7 +144,8 @@ def test_every_reader_has_its_file():
 @pytest.mark.parametrize("reader", [*FILES, *MORE])
 def test_odd_files_are_refused_in_one_line(reader, kind, files, tmp_path):
     work = prepare(reader, kind, files, tmp_path)
-    assert in_child(work) == (1 if reader in SILENT else 0)
+    is_missing = reader in SILENT or (kind == "loop" and reader in WRITTEN)
+    assert in_child(work) == is_missing
 
 
 @pytest.mark.parametrize("kind", LARGE)
@@ -139,10 +161,13 @@ def prepare(reader, kind, files, tmp_path):
     shutil.copytree(files, folder)
     name, read = MORE[reader] if reader in MORE else (FILES[reader], READERS[reader][0])
     path = folder / name
-    path.parent.mkdir(exist_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
     if kind in ODD:
         path.unlink(missing_ok=True)
-    (ODD | LARGE)[kind](path)
+    if kind != REGULAR:
+        (ODD | LARGE)[kind](path)
+    elif not path.exists():
+        path.write_text("{}")
     given = path if reader in MORE else folder / "a_stations.gpkg"
     return lambda: read(given)
 
@@ -172,7 +197,7 @@ def print_table():
     """Print a line for each reader and kind of file."""
     with tempfile.TemporaryDirectory() as name:
         files = write_files(Path(name)).parent
-        for reader, kind in itertools.product([*FILES, *MORE], ODD | LARGE):
+        for reader, kind in itertools.product([*FILES, *MORE], (REGULAR, *ODD, *LARGE)):
             with tempfile.TemporaryDirectory() as other:
                 seconds, peak, message = measure(prepare(reader, kind, files, Path(other)))
                 shown = escaped(message.replace(f"{other}/files/", "").replace("\n", " | "))
