@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..geometry.grids import dilate
 from ..passes import masks
-from ..render import composite
+from ..render import composite, smoke_range
 from ..render.eye import Eye
 from ..scene.smoke import illumination
 from ..shot.cameras.pixel_rays import SKY
@@ -21,12 +21,8 @@ Array = NDArray[np.float32]
 
 _MIDDLE = ((0.5, 0.5),)  # one marched ray in a pixel: smoke is smooth within four pixels
 _WHITE = 1.2  # as in `render.eye`
-_STEP = 1.0  # voxels, step along rays; half of it, as in films, takes twice the time
-_SPARSE = 2  # pixels along a block with one of these rays; pictures have even sides
-_SEEN = 0.01  # opacity of smoke from which it has a distance
 _OPAQUE = 0.05  # transmittance below which smoke can hide all flames
 _CLEAR = 0.999  # transmittance above which infrared smoke is not marched
-_NEAREST, _FARTHEST, _TAPS = 5.0, 6.0e4, 40  # m; distances along a ray at which opacity is known
 
 
 class Light(NamedTuple):
@@ -46,7 +42,7 @@ class SampleEye(Eye):
     def __init__(self, *arguments: Any, **more: Any) -> None:
         super().__init__(*arguments, **more)
         if self.flames is None:  # flames need the short steps of films
-            self.step = _STEP
+            self.step = smoke_range.STEP
 
     def light(self) -> Light:
         """Compute the picture with smoke and without, and their parts."""
@@ -89,42 +85,6 @@ class SampleEye(Eye):
         table = sensor.PlanckTable(BANDS[self.shot.settings.thermal.band])
         return table.brightness_temperature(self.radiance(1)).astype(np.float32)
 
-    def smoke_range(self, clear: Array) -> Array:
-        """Measure the distance (h, w) at which smoke reaches half of its opacity, m; inf without smoke."""
-        ranges = np.full(self.shape, np.inf, np.float32)
-        if not self.smoke:
-            return ranges
-        row, column = _densest(clear)
-        seen = clear[row, column] < 1.0 - _SEEN
-        if not seen.any():
-            return ranges
-        row, column = row[seen], column[seen]
-        origins, directions = self.rays.origins, self.rays.directions[row, column]
-        ends = np.minimum(self.distance[row, column], _FARTHEST)
-        at = np.geomspace(np.minimum(_NEAREST, ends), ends, _TAPS, axis=-1).astype(np.float32)
-        through = volume.march(self.smoke, origins, directions, at, self._light, _STEP)[..., 3]
-        half = 0.5 * (1.0 + through[:, -1:])
-        after = np.argmax(through <= half, axis=1)
-        rows, before = np.arange(len(at)), np.maximum(after - 1, 0)
-        high, low = through[rows, before], through[rows, after]
-        part = np.clip((high - half[:, 0]) / np.maximum(high - low, 1.0e-6), 0.0, 1.0)
-        coarse = np.full(seen.shape, np.inf, np.float32)
-        away = at[rows, before] + part * (at[rows, after] - at[rows, before])
-        coarse[seen] = np.where(through[:, -1] < 1.0 - 0.5 * _SEEN, away, np.inf)
-        height, width = self.shape
-        ranges = np.repeat(np.repeat(coarse, _SPARSE, axis=0), _SPARSE, axis=1)[:height, :width]
-        return np.where(clear < 1.0 - _SEEN, ranges, np.inf).astype(np.float32)
-
-
-def _densest(clear: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return row and column of the pixel with the densest smoke in each block of `_SPARSE` pixels."""
-    height, width = (side // _SPARSE * _SPARSE for side in clear.shape)
-    blocks = clear[:height, :width].reshape(height // _SPARSE, _SPARSE, width // _SPARSE, _SPARSE)
-    blocks = blocks.swapaxes(1, 2).reshape(height // _SPARSE, width // _SPARSE, _SPARSE**2)
-    down, across = np.divmod(blocks.argmin(axis=-1), _SPARSE)
-    corner = np.meshgrid(*(np.arange(0, side, _SPARSE) for side in (height, width)), indexing="ij")
-    return corner[0] + down, corner[1] + across
-
 
 def _around(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Widen a mask (h, w) by pixels in which the rays between the first ones meet the same flames."""
@@ -161,5 +121,6 @@ class CentreEye(SampleEye):
         if not (self.smoke and chosen.any()):
             return np.ones(int(chosen.sum()), np.float32)
         rays = self.rays
-        depth = volume.optical_depth(self.smoke, rays.origins, rays.directions[chosen], ends[chosen], _STEP)
+        lines = rays.origins, rays.directions[chosen], ends[chosen]
+        depth = volume.optical_depth(self.smoke, *lines, smoke_range.STEP)
         return np.exp(-depth * illumination.extinction_factor(self.stage)).astype(np.float32)

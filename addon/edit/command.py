@@ -46,7 +46,7 @@ def _run(arguments: argparse.Namespace) -> None:
     from .. import output, timecode
     from ..auto_framing import fitted_scene
     from ..did_you_mean import suggestion
-    from ..errors import UsageError
+    from ..errors import UsageError, writing
     from ..escaped import escaped
     from ..progress import count, result, say
     from ..shot import passes
@@ -83,6 +83,11 @@ def _run(arguments: argparse.Namespace) -> None:
         path = arguments.out / f"{STEM}{suffix}"
         output.write_text(path, text(edit), arguments.overwrite, newline="\n")
         result(path)
+    former = arguments.out / f"{STEM}.edl"
+    if ".edl" not in formats and output.is_own(former):
+        with writing(former):
+            former.unlink()
+        say(f"removed {former} of an earlier edit")
 
 
 COMMAND = Command("edit", "cut films into OTIO, Final Cut Pro XML and EDL files", _DETAIL, FILMS, _run, _add)

@@ -326,8 +326,6 @@ def _camera(
     from ..blender import devices
     from ..render import memory_estimate as expected
     from ..render import pictures, plan
-    from ..shot import passes
-    from ..shot.light import exposure
     from ..shot.tiles import tile_cut
     from ..smoke import cache, prefetch
     from . import worker_scene
@@ -335,7 +333,6 @@ def _camera(
     for text in shot.warnings():
         tell(text)
     frames, done, most = count_frames(wanted), 0, 0
-    exposed = [picture.frame for picture in wanted if passes.known()[picture.name].is_exposed]
     drawn, hazy = plan.rendered(shot, wanted), smoke_frames(shot, wanted)
     tiled = [tile_cut.location(shot)] if shot.settings.tiles.sources else []
     with (
@@ -351,8 +348,6 @@ def _camera(
             if load and load.bytes > most:
                 most = load.bytes
                 tell(expected.describe(load))
-            if drawn and exposed and not done:
-                tell(exposure.describe(shot, exposed))
             own = share(progress, done, frames, "rendering")
             prepared = _with_culling(shot, stage, ready) if drawn else ready
             pictures.render(shot, stage, session, group, own, prepared, tell)

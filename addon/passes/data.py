@@ -13,7 +13,11 @@ channels                              content
 `CryptoClass00` to `02`, r g b a      classes: sky, ground, burned, tree, smoke, fire, building
 `CryptoTree00` to `02`, r g b a       single trees, alight or not, by names such as `tree_00001234`
 `thermal.kelvin`, `thermal.radiance`  as in `thermal`
+`smoke.Z`                             planar depth at which smoke reaches half of its opacity, m
 ===================================== ==================================================================
+
+`smoke.Z` is in blocks of 2 x 2 pixels, and 1e10 without smoke (opacity below 1 %). Cycles, which draws smoke
+if `smoke.draw` is "volume", does not measure it: files then have no such channel.
 
 Normals are of one ray through the pixel's centre, and noisy in foliage (see `normal`).
 
@@ -43,7 +47,7 @@ from ..shot.cameras import pixel_rays
 from ..shot.cameras.path import Path
 from ..shot.passes import DerivedPass, Files
 from ..shot.shot import Shot
-from .masks import FIRE, NAMES, SMOKE, TREE
+from .masks import FIRE, NAMES, SMOKE, SMOKE_RANGE, TREE
 
 ORDER = 43
 HELP = "Depth, normals, positions, motion, Cryptomatte and temperatures for compositors, 32-bit EXR"
@@ -64,7 +68,7 @@ _NAMES = (
     *cryptomatte.channels(TREES),
     *("thermal.kelvin", "thermal.radiance"),
 )
-_SAID = "Z, P: m; forward, backward: pixels right and up; thermal: K and W m-2 sr-1"
+_SAID = "Z, P, smoke.Z: m; forward, backward: pixels right and up; thermal: K and W m-2 sr-1"
 _ROWS = 64  # of a picture whose trees are ranked together, to limit memory
 _NEAR = ((1, 1), (0, 1), (1, 0), (1, 2), (2, 1), (0, 0), (0, 2), (2, 0), (2, 2))
 _WEIGHTS = np.array([4, 2, 2, 2, 2, 1, 1, 1, 1], np.float32)[:, None, None] / 16
@@ -95,8 +99,12 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     about = exr_tags.attributes(shot, camera, frame, _SAID)
     about |= cryptomatte.attributes(CLASSES, cryptomatte.manifest(named))
     about |= cryptomatte.attributes(TREES, files["json"].name, is_file=True)
+    names = list(_NAMES)
+    if SMOKE_RANGE in masks:
+        names.append("smoke.Z")
+        values.append(pixel_rays.planar_depths(view, frame, masks[SMOKE_RANGE])[..., None])
     pixels = np.concatenate([each.astype(np.float32) for each in values], axis=-1)
-    sensor.write_image(files["exr"], pixels, about, list(_NAMES), one_line=True)
+    sensor.write_image(files["exr"], pixels, about, names, one_line=True)
 
 
 def move(view: Path, frame: int, planar: Array, other: int) -> Array:

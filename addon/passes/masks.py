@@ -13,13 +13,15 @@ building 6     blocks of footprints and of stations, burned or not; buildings in
 ======== ===== =================================================================================
 
 The EXR has `class`; `clear`, the transmittance 0..1 of smoke; `instance`, the number of the tree or
-building (0: none); and `surface`, the class behind smoke, which is 4 only behind opaque smoke. The number
-of a building is its position among the footprints, from 1. A tree has the same number in every frame,
-camera and film of a run with one `seed`: it depends on the identity of the tree (see `numbers`), not on its
-index among built trees. Tree numbers are 24-bit hashes: about n^2 / 2^25 colliding pairs are expected among
-n visible trees. The PNG shows each class in one colour. One ray goes through each pixel's centre without
-filtering, so numbers stay integers. Behind opaque smoke the instance is unknown: 0. EEVEE writes half
-floats, exact only for integers up to 2048, so `masks` rejects EEVEE.
+building (0: none); `surface`, the class behind smoke, which is 4 only behind opaque smoke; and, if
+`smoke.draw` is "integrated", `smoke_range`, the distance along the line of sight at which smoke reaches half
+of its opacity, m, in blocks of 2 x 2 pixels (1e10: no smoke). The number of a building is its position among
+the footprints, from 1. A tree has the same number in every frame, camera and film of a run with one `seed`:
+it depends on the identity of the tree (see `numbers`), not on its index among built trees. Tree numbers are
+24-bit hashes: about n^2 / 2^25 colliding pairs are expected among n visible trees. The PNG shows each class
+in one colour. One ray goes through each pixel's centre without filtering, so numbers stay integers. Behind
+opaque smoke the instance is unknown: 0. EEVEE writes half floats, exact only for integers up to 2048, so
+`masks` rejects EEVEE.
 """
 
 from __future__ import annotations
@@ -52,6 +54,7 @@ COLOURS = (
     (255, 96, 16),
     (206, 72, 168),
 )
+SMOKE_RANGE = "smoke_range"
 ALIGHT = 0.3  # fraction of full flame of ground and crowns from which a pixel counts as fire
 HIDES = 0.5  # opacity from which a pixel counts as smoke
 
@@ -76,6 +79,7 @@ PASS = RenderedPass(
 )
 
 _LEAST = 1.0e-4  # transmittance of smoke below which class numbers are inexact
+_NO_SMOKE = 1.0e10  # m
 
 
 def classes(pixels: NDArray) -> tuple[NDArray, NDArray, NDArray, NDArray]:
@@ -95,17 +99,22 @@ def classes(pixels: NDArray) -> tuple[NDArray, NDArray, NDArray, NDArray]:
 
 
 def march(eye: Any, _frame: int) -> NDArray:
-    """Return the pixels (h, w, 3) of `blender.nodes.mask_switch`, with flames and smoke."""
-    return eye.masks(eye.channels["Combined"])
+    """Return the pixels (h, w, 3) of `blender.nodes.mask_switch` with flames and smoke, and its distance."""
+    pixels = eye.masks(eye.channels["Combined"])
+    away = np.minimum(eye.smoke_range(pixels[..., 1]), _NO_SMOKE)
+    return np.concatenate([pixels, away[..., None]], axis=-1)
 
 
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
     """Separate classes, instances and smoke, and paint the classes."""
-    names = ["class", "clear", "instance", "surface"]  # as EXR files sort them
-    kind, instance, clear, surface = classes(sensor.read_image(files["exr"]))
-    said = "class: " + ", ".join(f"{value} {name}" for value, name in enumerate(NAMES))
+    pixels = sensor.read_image(files["exr"])
+    kind, instance, clear, surface = classes(pixels)
+    said = "class: " + ", ".join(f"{value} {name}" for value, name in enumerate(NAMES)) + "; smoke_range: m"
     about = exr_tags.attributes(shot, camera, frame, said)
-    channels = np.stack([kind, np.clip(clear, 0.0, 1.0), instance, surface], axis=-1).astype(np.float32)
-    sensor.write_image(files["exr"], channels, about, names)
+    channels = {"class": kind, "clear": np.clip(clear, 0.0, 1.0), "instance": instance, "surface": surface}
+    channels |= {SMOKE_RANGE: pixels[..., 3]} if pixels.shape[-1] > 3 else {}
+    names = sorted(channels)  # as EXR files sort them
+    values = np.stack([channels[name] for name in names], axis=-1).astype(np.float32)
+    sensor.write_image(files["exr"], values, about, names)
     colours = np.array(COLOURS, np.float32) / 255.0
     sensor.write_image(files["png"], colours[kind.astype(np.int64)])

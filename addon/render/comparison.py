@@ -31,7 +31,8 @@ def make(
                     for picture in pictures:
                         _finish(own, session, part, picture)
                     if queue.holds_lease():
-                        publish(own, session, part, pictures)
+                        seen = session.store.entry(Picture(camera, queue.frame, "rgb").file("png"))
+                        publish(own, session, part, pictures, stops=seen.get(manifest.EXPOSURE))
                         done += len(pictures)
 
 

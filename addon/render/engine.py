@@ -6,7 +6,7 @@ little indirect and transmitted light. "Cost" in the documentation gives the mea
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 
 import bpy
@@ -146,6 +146,12 @@ def check_working_space() -> None:
 def exposure(scene: bpy.types.Scene) -> float:
     """Return the exposure of the shown frame, stops; rounded, so that shares of a film have equal files."""
     return round(scene.view_settings.exposure, 3)
+
+
+def describe_exposure(camera: str, stops: Collection[float]) -> str:
+    """Describe the exposure of a camera's frames: ``drone is exposed by 3.9 to 4.2 stops``."""
+    limits = dict.fromkeys(f"{each:.1f}" for each in (min(stops), max(stops)))
+    return f"{camera} is exposed by {' to '.join(limits)} stops"
 
 
 def set_metadata(run: Run, scene: bpy.types.Scene) -> None:

@@ -21,7 +21,7 @@ from ..scene.smoke import illumination
 from ..shot.sections.thermal import BANDS
 from ..shot.shot import Shot
 from ..smoke import shutter
-from . import composite, rays
+from . import composite, rays, smoke_range
 from . import flame_distance as flame_distances
 from .surfaces import Channels
 
@@ -231,6 +231,17 @@ class Eye:
         depth = volume.optical_depth(self.smoke, *_lines(self.rays), ends.ravel(), step=_STEP)
         clear = np.exp(-depth * illumination.extinction_factor(self.stage)).reshape(self.shape)
         return pixels * clear[..., None]
+
+    def smoke_range(self, clear: Array) -> Array:
+        """Measure the distance (h, w) of smoke of this transmittance (h, w), m (see `smoke_range`)."""
+        if not self.smoke:
+            return np.full(self.shape, np.inf, np.float32)
+
+        def march(origins: NDArray[np.float64], directions: NDArray[np.float64], at: Array) -> Array:
+            light, step = self._light, smoke_range.STEP
+            return volume.march(self.smoke, origins, directions, at, light, step)[..., 3]
+
+        return smoke_range.measure(self.rays.origins, self.rays.directions, self.distance, clear, march)
 
     def _flames_before(self, ends: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Return the distances (h, w) up to opaque flames or `ends`, m, and a mask of the opaque flames."""

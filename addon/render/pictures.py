@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any
 
@@ -71,7 +71,7 @@ def render(
     """
     engine.set_metadata(shot.run, stage.scene)
     engine.check_working_space()
-    rendered, note = 0, ""
+    rendered, note, stops = 0, "", set[float]()
     marched = integrated.applies(shot, stage.scene) and bool(plan.rendered(shot, wanted))
     cost = frame_cost.FrameCost()
     renderer = integrated.IntegratedRenderer(shot, stage, cost) if marched else None
@@ -86,15 +86,30 @@ def render(
                 finished = _frame(shot, stage, session, part, queue, ready, renderer, cost)
             if finished:
                 rendered, note = rendered + 1, _preview(finished)
+                if _are_exposed(finished):
+                    stops.add(engine.exposure(stage.scene))
                 if rendered == 1:
-                    tell(cost.sentence())
+                    _tell_costs(cost, queue.camera, stops, tell)
             memory.release_freed()
         progress(queue.done, queue.total, "rendering", note)
     for text in renderer.warnings() if renderer else ():
         tell(text)
     if rendered > 1:
-        tell(cost.sentence())
+        _tell_costs(cost, wanted[0].camera, stops, tell)
     return rendered
+
+
+def _are_exposed(pictures: list[Picture]) -> bool:
+    return any(passes.known()[picture.name].is_exposed for picture in pictures)
+
+
+def _tell_costs(
+    cost: frame_cost.FrameCost, camera: str, stops: Collection[float], tell: MessageCallback
+) -> None:
+    """Describe the time and the exposure of the frames so far."""
+    tell(cost.sentence())
+    if stops:
+        tell(engine.describe_exposure(camera, stops))
 
 
 def _frame(

@@ -84,6 +84,11 @@ class Store:
                 return False
         return True
 
+    def entry(self, path: str) -> dict[str, Any]:
+        """Return the entry of a finished file; empty if there is none."""
+        row = self.data.fetch_one("SELECT entry FROM files WHERE path = ?", path)
+        return json.loads(row[0]) if row else {}
+
     def inputs_of(self, path: str) -> dict[str, Any] | None:
         """Return the inputs that a finished file was made with; None for a file without an entry."""
         row = self.data.fetch_one(

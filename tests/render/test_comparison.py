@@ -93,6 +93,10 @@ def test_all_is_made_and_entered(film):
             "drone_at_late/rgb/drone_at_late_rgb_000001.exr",
             "drone_at_late/rgb/drone_at_late_rgb_000001.png",
         ]
+        stops = {path: store.entry(path).get("exposure") for path in store.names()}
+    seen = stops["drone/rgb/drone_rgb_000001.png"]
+    assert seen is not None
+    assert {stops[f"drone/{name}/drone_{name}_000001.png"] for name in ("split", "difference")} == {seen}
     assert _read(out, "drone", "split", "png").shape[:2] == (36, 64)
 
 

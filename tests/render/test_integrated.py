@@ -86,6 +86,9 @@ def test_marched_smoke_is_the_smoke_that_cycles_walks_through(both):
     clear, same = ours["masks"][..., 1], theirs["masks"][..., 1]
     assert (same < 0.1).mean() > 0.1, "of the picture, so that there is smoke to compare"
     assert np.abs(clear - same).mean() < 0.01
+    smoke, surface = ours["masks"][..., 3], ours["depth"][..., 1]
+    assert (smoke[clear < 0.5] < 1.1 * surface[clear < 0.5]).mean() > 0.95
+    assert (smoke[clear > 0.995] == np.float32(1.0e10)).all()
     thick = (clear < 0.02) & (same < 0.02)
     light, reference = (found["rgb"][thick].mean(axis=0) for found in both)
     assert light == pytest.approx(reference, rel=0.05)

@@ -36,10 +36,20 @@ def ranges(view: Path, frame: int, planar: NDArray) -> NDArray[np.float32]:
 
     In a panorama depth is range already, measured from the centre of the eyes.
     """
+    return np.where(planar < SKY, planar * _slant(view, frame, planar), planar).astype(np.float32)
+
+
+def planar_depths(view: Path, frame: int, away: NDArray) -> NDArray[np.float32]:
+    """Convert ranges (h, w), m, to planar depth; the inverse of `ranges`."""
+    return np.where(away < SKY, away / _slant(view, frame, away), away).astype(np.float32)
+
+
+def _slant(view: Path, frame: int, pixels: NDArray) -> NDArray[np.float64] | float:
+    """Ratio (h, w) of range to planar depth."""
     if view.around or not view.perspective:
-        return planar
-    x, y = plane(view, frame, *planar.shape)
-    return np.where(planar < SKY, planar * np.sqrt(1.0 + x**2 + y**2), planar).astype(np.float32)
+        return 1.0
+    x, y = plane(view, frame, *pixels.shape)
+    return np.sqrt(1.0 + x**2 + y**2)
 
 
 def points(view: Path, frame: int, planar: NDArray) -> NDArray[np.float64]:

@@ -7,7 +7,6 @@ that nights stay dark. It is limited so that flame-lit smoke is not overexposed.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,13 +50,6 @@ def at(shot: Shot, frames: NDArray) -> Array:
         return np.full(np.shape(frames), float(given))
     metered = _metered(shot.full)
     return np.interp(frames, metered.frame, metered.stops)
-
-
-def describe(shot: Shot, frames: Sequence[int]) -> str:
-    """Describe the exposure of a shot's first camera: ``drone is exposed by 3.9 to 4.2 stops``."""
-    stops = at(shot, np.array(frames))
-    limits = dict.fromkeys(f"{each:.1f}" for each in (stops.min(), stops.max()))
-    return f"{shot.settings.cameras[0].name} is exposed by {' to '.join(limits)} stops"
 
 
 def darkness(shot: Shot, times: NDArray | float) -> Array:

@@ -5,7 +5,8 @@ import weakref
 import pytest
 from firetwin import memory
 from firetwin.imaging.credits import Credits
-from firetwin.render import integrated, pictures
+from firetwin.progress import no_message
+from firetwin.render import engine, integrated, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
 from firetwin.shot import passes
@@ -45,10 +46,10 @@ def film(shot, stage, tmp_path, monkeypatch):
     monkeypatch.setattr(integrated, "applies", lambda *_: False)
     monkeypatch.setattr(memory, "release_freed", lambda: events.append("give back"))
 
-    def make(count):
+    def make(count, tell=no_message):
         wanted = [Picture("drone", frame, name) for frame in range(1, count + 1) for name in PASSES]
         with open_session(tmp_path, {("drone", name): {"pass": name} for name in passes.known()}) as here:
-            made = pictures.render(shot, stage, here, wanted, lambda *how: told.append(how), ready)
+            made = pictures.render(shot, stage, here, wanted, lambda *how: told.append(how), ready, tell)
         assert made == count
         return events, told
 
@@ -69,6 +70,16 @@ def test_the_note_is_the_picture_that_people_look_at(film):
         (0, 2, "rendering", ""),
         (1, 2, "rendering", "drone/rgb/drone_rgb_000001.png"),
         (2, 2, "rendering", "drone/rgb/drone_rgb_000002.png"),
+    ]
+
+
+def test_the_exposure_of_the_blender_scene_is_told(film, monkeypatch):
+    stops, said = iter((3.96, 3.96, 4.2, 4.2)), []
+    monkeypatch.setattr(engine, "exposure", lambda scene: next(stops))
+    film(2, said.append)
+    assert [each for each in said if "exposed" in each] == [
+        "drone is exposed by 4.0 stops",
+        "drone is exposed by 4.0 to 4.2 stops",
     ]
 
 

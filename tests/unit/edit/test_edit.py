@@ -8,7 +8,7 @@ from urllib.parse import unquote
 
 import opentimelineio as otio
 import pytest
-from firetwin import cli, timecode
+from firetwin import cli, output, timecode
 from firetwin.edit import cut, edl, fcp_xml
 from firetwin.edit import otio as otio_file
 from firetwin.edit.cut import CameraFilm, Edit, Marker
@@ -205,13 +205,18 @@ def test_xml_and_edl_give_the_same_cut(rendered, tmp_path, fps, rate):
 
 
 def test_a_rate_without_timecode_has_no_edl(rendered, tmp_path, capsys):
-    out = tmp_path / "my film"
-    assert cli.main(["edit", str(rendered("12", "12")), "--out", str(out)]) == 0
-    (line,) = (line for line in capsys.readouterr().err.splitlines() if "film.edl" in line)
-    assert "at 12 frames per second; use film.otio or film.xml, or set [time] fps = 24" in line
+    out, scene = tmp_path / "my film", str(rendered("12", "12"))
+    output.write_text(out / "film.edl", "of an earlier edit")
+    assert cli.main(["edit", scene, "--out", str(out)]) == 0
+    omitted, removed = (line for line in capsys.readouterr().err.splitlines() if "film.edl" in line)
+    assert "at 12 frames per second; use film.otio or film.xml, or set [time] fps = 24" in omitted
+    assert removed.endswith(f"removed {out / 'film.edl'} of an earlier edit")
     assert not (out / "film.edl").exists()
     whole = otio.adapters.read_from_file(str(out / "film.otio"))
     assert media(whole) == media(otio.adapters.read_from_file(str(out / "film.xml"), "fcp_xml"))
+    (out / "film.edl").write_text("of others")
+    assert cli.main(["edit", scene, "--out", str(out), "--overwrite"]) == 0
+    assert (out / "film.edl").read_text() == "of others"
 
 
 def test_markers_are_at_the_times_of_their_events(rendered, tmp_path):

@@ -12,6 +12,7 @@ from firetwin.shot.cameras.path import Path
 from firetwin_core import sensor
 
 HEIGHT, WIDTH = 18, 32
+AWAY = 70.0  # m, distance of smoke
 
 
 def view(perspective=True, zoom=None):
@@ -104,8 +105,10 @@ def made(tmp_path, monkeypatch):
     needed = {name: {"exr": tmp_path / f"{name}.exr"} for name in ("depth", "normal", "masks", "thermal")}
     sensor.write_image(needed["depth"]["exr"], np.stack([planar, planar], -1), names=["planar", "range"])
     sensor.write_image(needed["normal"]["exr"], normal)
-    mattes = np.stack([kind, clear, instance, surface], -1)
-    sensor.write_image(needed["masks"]["exr"], mattes, names=["class", "clear", "instance", "surface"])
+    away = np.where(clear < 1.0, np.float32(AWAY), np.float32(1.0e10))
+    mattes = np.stack([kind, clear, instance, away, surface], -1)
+    names = ["class", "clear", "instance", "smoke_range", "surface"]
+    sensor.write_image(needed["masks"]["exr"], mattes, names=names)
     sensor.write_image(
         needed["thermal"]["exr"], np.stack([warm, warm / 10], -1), names=["kelvin", "radiance"]
     )
@@ -117,7 +120,10 @@ def made(tmp_path, monkeypatch):
 def test_the_file_has_its_layers(made):
     files, given = made
     channels = sensor.read_channels(files["exr"])
-    assert set(channels) == set(data._NAMES)
+    assert set(channels) == {*data._NAMES, "smoke.Z"}
+    assert (channels["smoke.Z"][4:] == 1.0e10).all()
+    ranges = pixel_rays.ranges(view(), 2, channels["smoke.Z"])
+    assert ranges[:4] == pytest.approx(AWAY)
     assert channels["Z"][0, 0] == np.float32(1.0e10)
     assert np.array_equal(channels["thermal.kelvin"], given["warm"])
     assert [channels[f"N.{axis}"][5, 5] for axis in "XYZ"] == pytest.approx([0.1, 0.2, 0.9])
