@@ -2,6 +2,7 @@
 
 import tomllib
 from collections.abc import Callable, Iterator
+from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,7 @@ from .grid import (
 
 NAME = "King Fire 2014 (synthetic sample)"
 INTERVAL = 60.0  # s
+EARLY = 360  # minutes of the early run, which begins at the ignition
 FIELDS = ("heat_flux", "temperature", "wind_east", "wind_north")
 FORMATS = ("npy", "text")
 
@@ -33,6 +35,7 @@ def write(
     pace: float = 1.0,
     member: int = 0,
     overwrite: bool = False,
+    early: bool = False,
 ) -> None:
     """Write the sample run to the folder `out`.
 
@@ -42,7 +45,7 @@ def write(
         Created if missing; an earlier sample run is replaced, other content is rejected. Files of others in
         the folder stay.
     frames
-        Number of output times, spread evenly over the run's 1,858 minutes; all of them if None.
+        Number of output times, spread evenly over the minutes of the run; all of them if None.
     format
         "npy": one array per field. "text": one file per field and time.
     progress
@@ -53,40 +56,48 @@ def write(
         Number of the member of the synthetic ensemble (members.py); 0 is the sample's fire.
     overwrite
         Also replace changed files of an earlier sample run.
+    early
+        Write the first hours of the fire, days before the sample. Their spread within the first perimeter is
+        invented; the weather is that of the same time of day.
 
     Raises
     ------
     firetwin_core.InputError
-        `out` exists and is not a sample run, or `frames` or `format` is out of range.
+        `out` exists and is not a sample run, `frames` or `format` is out of range, or the early run has
+        another pace or member.
     """
     out = Path(out)
     _refuse_strangers(out)
     if format not in FORMATS:
         raise input_error(out, f"unknown format {format!r}; choose {' or '.join(FORMATS)}")
-    minutes = _minutes(out, frames)
-    _write(out, minutes, format, progress, pace, member, overwrite)
+    if early and (pace != 1.0 or member):
+        raise input_error(out, "the early run has no other pace and members; leave them out")
+    sample = members.sample_of(member)
+    sample, minutes = _early(sample) if early else (at_pace(sample, pace), np.arange(stored.MINUTES + 1))
+    which = [f"member {member:02}"] * bool(member) + [f"{pace:g} of its pace"] * (pace != 1.0)
+    minutes = _chosen(out, minutes, frames)
+    with staging(out, overwrite, is_run=True) as work:
+        _write(work, sample, minutes, format, progress, which + ["first hours"] * early)
 
 
 def _write(
     out: Path,
+    sample: stored.Sample,
     minutes: NDArray[np.int64],
     format: str,
     progress: Callable[[int, int], None] | None,
-    pace: float,
-    member: int,
-    overwrite: bool,
+    which: list[str],
 ) -> None:
-    with staging(out, overwrite, is_run=True) as work:
-        sample = at_pace(members.sample_of(member), pace)
-        writer = runtext.NpyWriter(work) if format == "npy" else runtext.TextWriter(work)
-        for name, values in _static(sample).items():
-            writer.field(name, values)
-        with writer.series(FIELDS, len(minutes), (MODEL_CELLS, MODEL_CELLS)) as put:
-            for done, values in enumerate(frames_of(sample, minutes)):
-                put(done, values)
-                if progress:
-                    progress(done + 1, len(minutes))
-        (work / "run.toml").write_text(_run_toml(minutes, pace, member), encoding="utf-8")
+    """Write a run that begins at the first of the `minutes` of a sample."""
+    writer = runtext.NpyWriter(out) if format == "npy" else runtext.TextWriter(out)
+    for name, values in _static(sample, minutes[0] * INTERVAL).items():
+        writer.field(name, values)
+    with writer.series(FIELDS, len(minutes), (MODEL_CELLS, MODEL_CELLS)) as put:
+        for done, values in enumerate(frames_of(sample, minutes)):
+            put(done, values)
+            if progress:
+                progress(done + 1, len(minutes))
+    (out / "run.toml").write_text(_run_toml(minutes, which), encoding="utf-8")
 
 
 def frames_of(sample: stored.Sample, minutes: NDArray[np.int64]) -> Iterator[tuple[NDArray, ...]]:
@@ -111,13 +122,14 @@ def frames_of(sample: stored.Sample, minutes: NDArray[np.int64]) -> Iterator[tup
         yield flux, warm, east, north
 
 
-def _minutes(out: Path, frames: int | None) -> NDArray[np.int64]:
-    total = stored.MINUTES + 1
+def _chosen(out: Path, minutes: NDArray[np.int64], frames: int | None) -> NDArray[np.int64]:
+    """Choose evenly spaced minutes; all of them if `frames` is None."""
+    total = len(minutes)
     if frames is None:
-        return np.arange(total)
+        return minutes
     if not 1 <= frames <= total:
         raise input_error(out, f"{frames} frames requested; the sample run has 1 to {total}")
-    return np.unique(np.rint(np.linspace(0, stored.MINUTES, frames)).astype(int))
+    return np.unique(np.rint(np.linspace(minutes[0], minutes[-1], frames)).astype(int))
 
 
 def _refuse_strangers(out: Path) -> None:
@@ -133,7 +145,8 @@ def _refuse_strangers(out: Path) -> None:
         raise input_error(out, "exists and is not a sample run; name another folder")
 
 
-def _static(sample: stored.Sample) -> dict[str, NDArray]:
+def _static(sample: stored.Sample, begin: float) -> dict[str, NDArray]:
+    """Return the fields of a sample that do not change; its run begins at `begin`, s."""
     latitude, longitude = axes(MODEL_CELLS, MODEL_CELL_SIZE)
     fuel_latitude, fuel_longitude = axes(FUEL_CELLS, FUEL_CELL_SIZE)
     return {
@@ -143,7 +156,7 @@ def _static(sample: stored.Sample) -> dict[str, NDArray]:
         "fuel_latitude": fuel_latitude,
         "fuel_longitude": fuel_longitude,
         "fuel_elevation": sample.elevation,
-        "fuel_arrival_time": sample.arrival.astype(np.float32),
+        "fuel_arrival_time": (sample.arrival - begin).astype(np.float32),
         "surface_fuel": sample.surface,
         "canopy_fuel": sample.canopy,
     }
@@ -161,11 +174,20 @@ def at_pace(sample: stored.Sample, pace: float) -> stored.Sample:
     return sample._replace(arrival=arrival)
 
 
-def _run_toml(minutes: NDArray[np.int64], pace: float = 1.0, member: int = 0) -> str:
+def _early(sample: stored.Sample) -> tuple[stored.Sample, NDArray[np.int64]]:
+    """Return the sample's fire of the first hours, and their minutes, which precede the sample's start."""
+    first = int(np.floor(np.nanmin(sample.arrival) / INTERVAL))
+    minutes = first + np.arange(EARLY + 1)
+    arrival = np.where(sample.arrival <= minutes[-1] * INTERVAL, sample.arrival, np.nan)
+    return sample._replace(arrival=arrival), minutes
+
+
+def _run_toml(minutes: NDArray[np.int64], which: list[str]) -> str:
     heading = f'name = "{NAME}"\nsynthetic = true\nevent = "king_fire"'
-    if pace != 1.0 or member:
-        which = [f"member {member:02}"] * bool(member) + [f"{pace:g} of its pace"] * (pace != 1.0)
+    if which:
         heading = f'name = "{", ".join([NAME, *which])}"\nsynthetic = true'
+    start = stored.START + timedelta(seconds=int(minutes[0] * INTERVAL))
+    minutes = minutes - minutes[0]
     if len(minutes) > 1 and np.ptp(np.diff(minutes)) == 0:
         times = f"interval_s = {(minutes[1] - minutes[0]) * INTERVAL:.1f}"
     else:
@@ -177,7 +199,7 @@ def _run_toml(minutes: NDArray[np.int64], pace: float = 1.0, member: int = 0) ->
 # over the {INTERVAL:.0f} s that end at each time. Temperature and wind come from scaling laws, not a flow
 # model.
 {heading}
-start = {stored.START:%Y-%m-%dT%H:%M:%SZ}
+start = {start:%Y-%m-%dT%H:%M:%SZ}
 {times}
 mean_s = {INTERVAL:.1f}
 vertical = "orthometric"

@@ -1,7 +1,7 @@
 """Weather of the sample run: an invented dry day of south-west wind, and the effect of canyons on it.
 
-Times are seconds since the run's start, 16 September 2014 21:45 PDT. NumPy only: the expansion of the sample
-uses it.
+Times are seconds since the run's start, 16 September 2014 21:45 PDT; the days before have the same weather.
+NumPy only: the expansion of the sample uses it.
 """
 
 from typing import NamedTuple
@@ -48,7 +48,8 @@ class Channel(NamedTuple):
 
 
 def _at(time: ArrayLike, column: int) -> NDArray[np.float64]:
-    return np.interp(np.asarray(time, dtype=float) / 3600, _SCHEDULE[:, 0], _SCHEDULE[:, column])
+    hours = np.asarray(time, dtype=float) / 3600
+    return np.interp(np.where(hours < 0.0, hours % 24.0, hours), _SCHEDULE[:, 0], _SCHEDULE[:, column])
 
 
 def open_wind(time: ArrayLike) -> tuple[NDArray, NDArray]:

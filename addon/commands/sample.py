@@ -32,6 +32,11 @@ def _add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--member", metavar="I", type=types.member, default=0, help="write the run of member I (0)"
     )
+    parser.add_argument(
+        "--early",
+        action="store_true",
+        help="write the first 6 hours of the fire, from its ignition on 13 September, with invented spread",
+    )
     add_overwrite(parser)
 
 
@@ -42,7 +47,7 @@ def _run(arguments: argparse.Namespace) -> None:
     say(f"writing the synthetic King-like run to {arguments.out}")
     report = Reporter("model times")
     options = arguments.frames, arguments.format, report, arguments.pace, arguments.member
-    sample.write(arguments.out, *options, overwrite=arguments.overwrite)
+    sample.write(arguments.out, *options, overwrite=arguments.overwrite, early=arguments.early)
     result(arguments.out)
 
 

@@ -4,7 +4,7 @@ Smoke counts where it hides at least `ALPHAS[0]` of the background and changes t
 `CONTRAST`: smoke that nobody can see has no box. Fire counts where the mask pass shows it, or where flames
 give at least `GLOW` of white and `SHARE` of the light of the pixel. Parts with gaps of at most `GAP` of the
 picture's width are one instance: a trunk, a narrow ridge or a thin spot does not divide a plume; wider
-terrain does.
+terrain does. Smoke that nobody can see joins the parts of its plume, but has no pixels in the mask.
 """
 
 from __future__ import annotations
@@ -47,6 +47,9 @@ MIN_PIXELS = 16
 
 SMOKE_BAND = "visible: opacity in green light, contrast in red, green and blue"
 FIRE_BAND = "visible"
+
+HIDES = 0.5
+"""Opacity of smoke that hides the front, as of the class smoke in `masks`."""
 
 _REACH = 2  # pixels on each side of the mean contrast
 
@@ -91,8 +94,8 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
     seen = smoke & (contrast >= CONTRAST)
     visible, amodal = fire_masks(rendered)
     found = [
-        *_instances(truth.FIRE, amodal, visible, rendered.camera.width),
-        *_instances(truth.SMOKE, seen, seen, rendered.camera.width),
+        *_instances(truth.FIRE, amodal, visible, amodal, rendered.camera.width),
+        *_instances(truth.SMOKE, seen, seen, smoke, rendered.camera.width),
     ]
     large = [each for each in found if each.pixels >= MIN_PIXELS][: truth.MOST]
     small = [each for each in found if not any(each is other for other in large)]
@@ -108,7 +111,7 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
         seconds_since_ignition=since,
         annotations=tuple(annotations[: len(large)]),
         below_size=tuple(annotations[len(large) :]),
-        front=_polylines(survey.front_in_picture(place, rendered.camera)),
+        front=_polylines(survey.front_in_picture(place, rendered.camera, rendered.alpha >= HIDES)),
         front_geojson=place.geojson(),
         horizon=_polylines(survey.skyline(rendered.depth, rendered.rgb, HORIZON)),
         labelling=thresholds() | {"smoke_without_contrast_pixels": int((smoke & ~seen).sum())},
@@ -121,6 +124,7 @@ def thresholds() -> dict[str, Any]:
     return {
         "smoke": {"band": SMOKE_BAND, "alpha": list(ALPHAS), "contrast": CONTRAST},
         "fire": {"band": FIRE_BAND, "glow_of_white": GLOW, "share_of_light": SHARE, "class": "masks: fire"},
+        "front": {"hiding_alpha": HIDES},
         "gap_of_width": GAP,
         "min_pixels": MIN_PIXELS,
     }
@@ -186,9 +190,9 @@ def _angles(turned: Array, place: Place, here: Array) -> tuple[float, float, flo
     return float(heading), float(pitch), float(roll)
 
 
-def _instances(category: int, amodal: Mask, visible: Mask, width: int) -> list[_Instance]:
-    """Separate masks into instances, with the most visible pixels first."""
-    labels, count = components.group(amodal, round(GAP * width))
+def _instances(category: int, amodal: Mask, visible: Mask, joined: Mask, width: int) -> list[_Instance]:
+    """Separate masks into instances, with the most visible pixels first; `joined` connects their parts."""
+    labels, count = components.group(joined | amodal, round(GAP * width))
     row, column = np.nonzero(amodal)
     number = labels[row, column]
     order = np.argsort(number, kind="stable")
@@ -196,6 +200,8 @@ def _instances(category: int, amodal: Mask, visible: Mask, width: int) -> list[_
     found = []
     for first, last in pairwise(bounds.tolist()):
         some = order[first:last]
+        if not len(some):
+            continue  # smoke that nobody can see
         found.append(_Instance(category, row[some], column[some], visible[row[some], column[some]]))
     return sorted(found, key=lambda each: -each.pixels)
 

@@ -1,4 +1,8 @@
-"""Lamps on the ground of a sample at night: street lamps and houses, which look like distant fire."""
+"""Lamps on the ground of a sample at night: street lamps and houses, which look like distant fire.
+
+A lamp is at least `_WIDTH` pixels wide, at its drawn brightness, so that the rays of a picture meet it: the
+lamps of a town several kilometres away are brighter than real ones.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +19,7 @@ _REACH = np.geomspace(30.0, 15_000.0, 200)  # m, distances at which a ray is tes
 _TRIES = 8  # rays for each lamp: rays to the sky and to places too close meet none
 _WARM, _COOL, _COLD = (1.0, 0.62, 0.30), (0.85, 0.92, 1.0), 0.4  # sodium and white lamps; share of these
 _LIGHT = 4.0, 40.0  # brightness relative to lit windows (assumed)
+_WIDTH = 2.0  # pixels
 
 
 def build(shot: Shot, stage: Stage, drawn: Draw) -> None:
@@ -28,7 +33,10 @@ def build(shot: Shot, stage: Stage, drawn: Draw) -> None:
     low, high = np.log(_LIGHT)
     bright = np.exp(random.uniform(low, high, (len(centre), 1)))
     if len(centre):
-        town_lights.place_lamps(shot, collection, centre, np.where(cool, _COOL, _WARM) * bright)
+        (view,) = shot.paths
+        away = np.linalg.norm(centre - view.position[0], axis=1)
+        size = np.maximum(town_lights.SIZE, 0.5 * _WIDTH * view.pixel * away)
+        town_lights.place_lamps(shot, collection, centre, np.where(cool, _COOL, _WARM) * bright, size)
 
 
 def _seen_places(shot: Shot, random: np.random.Generator, count: int) -> NDArray[np.float64]:

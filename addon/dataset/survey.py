@@ -34,6 +34,7 @@ _EDGE_ROWS, _EDGE_COLUMNS = 4, 4  # pixels above and below, and on each side, of
 _HIDDEN = 2.0  # m, height of the ground above a line of sight that hides its end
 _NEAR = 1.0  # m before the camera
 _DIGITS = 6  # of degrees in GeoJSON: 0.1 m
+_FINE = 20.0  # m, largest chord of the front, which is curved within the cells of the model
 _ISLAND = 600.0  # s, weight of the unburned share of ground compared with time to its arrival
 _SIMPLIFIED = 0.25  # cells, largest deviation of the front in GeoJSON
 _PER_DEGREE = 111_000.0  # m
@@ -109,12 +110,14 @@ def _front(ground: Terrain, time: float) -> tuple[Line, ...]:
     last = np.max(ground.burn_time, initial=-np.inf, where=ground.burned >= 0.5)
     if time > last + BURN_TIME:
         return ()
-    ahead = np.maximum(ground.burn_time - time, _ISLAND * (0.5 - ground.burned))
-    near = box(ahead <= 0.0, more=1)
+    since, islands = ground.burn_time - time, _ISLAND * (0.5 - ground.burned)
+    near = box(np.maximum(since, islands) <= 0.0, more=2)
     if near is None:
         return ()
-    row, column, after = front.contour(np.pad(ahead[near], 1, constant_values=UNKNOWN))
-    rows, columns = (at + lines.start - 1 for at, lines in zip((row, column), near, strict=True))
+    parts = max(1, int(np.ceil(max(ground.cell) / _FINE)))
+    since, islands = (front.divide(each[near], parts) for each in (since, islands))
+    row, column, after = front.contour(np.pad(np.maximum(since, islands), 1, constant_values=UNKNOWN))
+    rows, columns = ((at - 1.0) / parts + lines.start for at, lines in zip((row, column), near, strict=True))
     return tuple(fronts.rings(*ground.places(rows, columns), after))
 
 
@@ -166,13 +169,20 @@ def ground_area(
     return float(np.sum(depth[seen] ** 2 / facing[seen]) / (camera.fx * camera.fy))
 
 
-def front_in_picture(place: Place, camera: SampleCamera) -> list[Array]:
-    """Project the front: visible polylines (n, 2), pixels. Terrain hides it, trees and smoke do not."""
+def front_in_picture(place: Place, camera: SampleCamera, smoky: Mask) -> list[Array]:
+    """Project the front: visible polylines (n, 2), pixels. Terrain and smoke hide it, trees do not.
+
+    Parameters
+    ----------
+    smoky
+        Pixels (h, w) whose smoke hides the ground.
+    """
     polylines = []
     for line in place.front:
         for part in _sampled(place, camera, line):
             u, v, _ = project(camera, part)
             inside = (u >= 0.0) & (u <= camera.width) & (v >= 0.0) & (v <= camera.height)
+            inside[inside] = ~smoky[_pixel(v[inside], camera.height), _pixel(u[inside], camera.width)]
             inside[inside] = _is_in_sight(place, camera, part[inside])
             polylines += [_simplified(np.column_stack([u, v])[run]) for run in _true_runs(inside)]
     return polylines
@@ -246,6 +256,11 @@ def _is_in_sight(place: Place, camera: SampleCamera, points: Array) -> Mask:
     lines = eye + share[None, :, None] * (points - eye)[:, None, :]
     ground = place.ground(lines[..., 0].ravel(), lines[..., 1].ravel()).reshape(lines.shape[:2])
     return ~np.any(ground > lines[..., 2] + _HIDDEN, axis=1)
+
+
+def _pixel(at: Array, size: int) -> NDArray[np.int64]:
+    """Return the row or column of positions (n,) in pixels; the far edge is in the last one."""
+    return np.minimum(at.astype(np.int64), size - 1)
 
 
 def _true_runs(mask: Mask, least: int = 2) -> list[slice]:

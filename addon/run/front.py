@@ -69,16 +69,10 @@ class Reach:
             for found in (np.flatnonzero(burned.any(axis)) for axis in (1, 0))
         )
         since = fill_unburned(self.arrival[box] - time)
-        row, column = (np.linspace(0, count - 1, (count - 1) * self.divided + 1) for count in since.shape)
-        if self.divided > 1:
-            since = bilinear(since, *np.meshgrid(row, column, indexing="ij"))
-        y, x, after = contour(since)
+        row, column, after = contour(divide(since, self.divided))
         latitude, longitude = (
-            np.interp(at, np.arange(len(fine)), np.interp(fine, np.arange(axis[part].size), axis[part]))
-            for at, fine, axis, part in (
-                (y, row, self.latitude, box[0]),
-                (x, column, self.longitude, box[1]),
-            )
+            np.interp(at / self.divided, np.arange(axis[part].size), axis[part])
+            for at, axis, part in ((row, self.latitude, box[0]), (column, self.longitude, box[1]))
         )
         return latitude, longitude, after
 
@@ -87,6 +81,14 @@ class Reach:
 def reach(run: Run) -> Reach:
     """Return the burned area of a run; results of the latest runs are cached."""
     return Reach(ArrivalGrid.from_run(run))
+
+
+def divide(field: Array, parts: int) -> Array:
+    """Interpolate a field (ny, nx) bilinearly at `parts` points per cell along each axis."""
+    if parts == 1:
+        return field
+    row, column = (np.linspace(0, count - 1, (count - 1) * parts + 1) for count in field.shape)
+    return bilinear(field, *np.meshgrid(row, column, indexing="ij"))
 
 
 def contour(field: Array) -> tuple[Array, Array, NDArray[np.int64]]:

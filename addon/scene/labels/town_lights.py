@@ -17,7 +17,7 @@ from . import lettering
 from .material import write_place
 
 _COUNT, _SPREAD, _HEIGHT = 90, 450.0, 8.0  # lamps of a town; m, standard deviation of their places; m
-_SIZE = 0.35  # m, half width of a lamp with its bright surroundings (assumed)
+SIZE = 0.35  # m, half width of a lamp with its bright surroundings (assumed)
 _LIGHT = 20.0  # brightness relative to lit windows
 _WARM, _COOL, _COLD = (1.0, 0.62, 0.30), (0.85, 0.92, 1.0), 0.25  # sodium and white lamps, and share of these
 _CORNERS = np.array([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], float)
@@ -39,10 +39,21 @@ def build(
 
 
 def place_lamps(
-    shot: Shot, collection: bpy.types.Collection, centre: NDArray[np.float64], light: NDArray[np.float64]
+    shot: Shot,
+    collection: bpy.types.Collection,
+    centre: NDArray[np.float64],
+    light: NDArray[np.float64],
+    size: NDArray[np.float64] | float = SIZE,
 ) -> bpy.types.Object:
-    """Place lamps at centres (n, 3), m, with a colour and brightness (n, 3) relative to lit windows."""
-    corners = (centre[:, None] + _SIZE * _CORNERS).reshape(-1, 3)
+    """Place lamps at centres (n, 3), m, with a colour and brightness (n, 3) relative to lit windows.
+
+    Parameters
+    ----------
+    size
+        Half widths (n,), m.
+    """
+    half = np.broadcast_to(size, len(centre))[:, None, None]
+    corners = (centre[:, None] + half * _CORNERS).reshape(-1, 3)
     faces = (np.arange(len(centre))[:, None, None] * len(_CORNERS) + _FACES).reshape(-1, 3)
     data = create_mesh("Firetwin Town Lights", corners, faces, flat=True)
     colour = np.pad(np.repeat(light, len(_FACES), axis=0), [(0, 0), (0, 1)], constant_values=1.0)

@@ -76,5 +76,8 @@ def test_lamps_are_in_the_view_and_those_of_another_sample_are_gone(sample):
     (view,) = shot.paths
     seen = (centre - view.position[0]) @ view.rotation[0]
     assert (np.abs(seen[:, 0] / -seen[:, 2]) < view.half[0]).all()
+    widths = np.ptp(corners.reshape(-1, 6, 3)[..., 0], axis=1)
+    pixels = 2.0 * view.half[0] / shot.settings.render.resolution[0] * np.linalg.norm(seen, axis=1)
+    assert (widths >= 1.99 * pixels).all()
     night_lamps.build(shot, stage, draw)
     assert not stage.objects_of("Labels")

@@ -99,6 +99,17 @@ def test_smoke_without_opacity_or_contrast_has_no_box(opacity, added, count):
     assert invisible == (shown.sum() if opacity > 0.05 and not count else 0)
 
 
+def test_smoke_without_contrast_joins_the_parts_of_its_plume():
+    near, far, between = (block((40, 100), columns) for columns in ((40, 90), (150, 200), (90, 150)))
+    sample = plain_samples.plane(CAMERA)
+    plume = smoky(sample, near | far | between, 0.3, 3000.0, np.where(between, 0.0, 0.2))
+    (joined,) = labels.label(plume, PLACE, 1)[0].annotations
+    assert joined.box == pytest.approx((40.0, 40.0, 200.0, 100.0))
+    assert joined.pixels == pytest.approx((near | far).sum(), rel=0.1)
+    parts = smoky(sample, near | far, 0.3, 3000.0)
+    assert len(labels.label(parts, PLACE, 1)[0].annotations) == 2
+
+
 def test_noise_of_the_picture_is_no_contrast():
     sample = smoky(plain_samples.plane(CAMERA), block((40, 200), (40, 200)), 0.3, 3000.0, 0.0)
     noise = np.random.default_rng(0).normal(0.0, 0.03, sample.rgb.shape).astype(np.float32)

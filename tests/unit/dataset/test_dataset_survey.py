@@ -102,6 +102,12 @@ def test_haze_that_hides_the_land_hides_the_skyline():
     assert line[-1, 0] == pytest.approx(32.0, abs=5.0)
 
 
+def seen_front(place, camera, smoky=None):
+    """Return the front in a picture, without smoke by default."""
+    none = np.zeros((camera.height, camera.width), bool)
+    return survey.front_in_picture(place, camera, none if smoky is None else smoky)
+
+
 def ring(place):
     """Make a square front of 400 m around x = 0, y = 700 m, as degrees."""
     x, y = np.array([-200.0, 200.0, 200.0, -200.0, -200.0]), np.array([500.0, 500.0, 900.0, 900.0, 500.0])
@@ -111,7 +117,7 @@ def ring(place):
 def test_a_front_on_a_plane_is_where_its_corners_project():
     place = plain_samples.flat_place()
     place = plain_samples.flat_place(front=ring(place))
-    (line,) = survey.front_in_picture(place, CAMERA)
+    (line,) = seen_front(place, CAMERA)
     corners = np.array([[-200.0, 500.0, 0.0], [200.0, 500.0, 0.0], [200.0, 900.0, 0.0], [-200.0, 900.0, 0.0]])
     u, v, _ = survey.project(CAMERA, corners)
     for corner in np.column_stack([u, v]):
@@ -126,25 +132,36 @@ def test_terrain_hides_a_front():
     wall = plain_samples.flat_place(
         front=ring(place), ground=lambda _, y: np.where(abs(y - 300.0) < 20.0, 150.0, 0.0)
     )
-    assert survey.front_in_picture(wall, CAMERA) == []
+    assert seen_front(wall, CAMERA) == []
     low = plain_samples.flat_place(
         front=ring(place), ground=lambda _, y: np.where(abs(y - 300.0) < 20.0, 60.0, 0.0)
     )
-    assert len(survey.front_in_picture(low, CAMERA)) == 1
+    assert len(seen_front(low, CAMERA)) == 1
+
+
+def test_smoke_cuts_a_front():
+    place = plain_samples.flat_place()
+    place = plain_samples.flat_place(front=ring(place))
+    smoky = np.zeros((480, 640), bool)
+    smoky[:, 320:] = True
+    across = np.concatenate(seen_front(place, CAMERA, smoky))[:, 0]
+    assert across.max() == pytest.approx(320.0, abs=10.0)
+    assert across.min() < 250.0
+    assert seen_front(place, CAMERA, np.ones_like(smoky)) == []
 
 
 def test_the_edge_of_the_picture_cuts_a_front():
     place = plain_samples.flat_place()
     place = plain_samples.flat_place(front=ring(place))
     narrow = plain_samples.looking(-20.0, height=200.0, fov=20.0, size=(640, 480))
-    lines = survey.front_in_picture(place, narrow)
+    lines = seen_front(place, narrow)
     assert len(lines) == 2  # its near and its far side
     assert all(len(line) == 2 for line in lines)
     for u, v in np.concatenate(lines):
         assert 0.0 <= u <= 640.0
         assert 0.0 <= v <= 480.0
     away = plain_samples.looking(20.0, height=200.0, fov=20.0, size=(640, 480))
-    assert survey.front_in_picture(place, away) == []
+    assert seen_front(place, away) == []
 
 
 def test_a_front_in_degrees_is_a_geometry_of_geojson():
@@ -156,19 +173,32 @@ def test_a_front_in_degrees_is_a_geometry_of_geojson():
     assert first == pytest.approx([-120.6 - 200.0 / 86_900, 38.8 + 500.0 / 111_010], abs=2e-4)
 
 
-@pytest.fixture
-def circle(tmp_path):
+def circular(folder, cells, cell):
     """Make a shot of a fire that spreads as a circle, at 0.3 m/s from 60 s on."""
     fires = {"fires": ((0.0, 0.0, 60.0),), "wind": (0.0, 0.0), "speed": 0.3}
-    run = readers.open(whole_run.write(tmp_path / "run", cells=80, cell=20.0, **fires))
+    run = readers.open(whole_run.write(folder / "run", cells=cells, cell=cell, **fires))
     terrain = TerrainSettings(near_radius=0.0, apron=500.0)
-    return Shot(Settings(path=tmp_path / "scene.toml", time=Time(frames=1), terrain=terrain), run)
+    return Shot(Settings(path=folder / "scene.toml", time=Time(frames=1), terrain=terrain), run)
+
+
+@pytest.fixture
+def circle(tmp_path):
+    return circular(tmp_path, 80, 20.0)
+
+
+def test_a_front_is_curved_within_large_cells(tmp_path):
+    shot = circular(tmp_path, 16, 150.0)
+    (line,) = survey.of_shot(shot, 1860.0).front
+    middle = 0.5 * (line[1:] + line[:-1])
+    ground = shot.bare_ground
+    arrival = ground.arrival_at(*ground.indices(middle[:, 1], middle[:, 0]))
+    assert np.abs(arrival - 1860.0).max() < 2.0
 
 
 def test_the_front_of_a_run_is_its_circle_seen_from_above(circle):
     place = survey.of_shot(circle, 1860.0)
     camera = plain_samples.looking(-90.0, height=1500.0, fov=60.0, size=(640, 480))
-    (line,) = survey.front_in_picture(place, camera)
+    (line,) = seen_front(place, camera)
     radius = camera.fx * 0.3 * 1800.0 / 1500.0
     assert np.hypot(line[:, 0] - 320.0, line[:, 1] - 240.0) == pytest.approx(radius, rel=0.02)
     assert place.ignition == pytest.approx(60.0, abs=20.0 / 0.3)

@@ -7,7 +7,7 @@ import firetwin_core
 import numpy as np
 import pytest
 from firetwin.data import air, grid, history, release, sample, stored, weather
-from firetwin.run import opening
+from firetwin.run import opening, times
 
 JOULES_PER_KG = 17.433e6
 
@@ -246,6 +246,24 @@ def test_an_earlier_sample_is_replaced_and_anything_else_left_alone(tmp_path):
     with pytest.raises(firetwin_core.InputError) as caught:
         sample.write(file, frames=1)
     assert caught.value.path == str(file)
+
+
+def test_the_early_run_begins_at_its_ignition(tmp_path, store):
+    sample.write(tmp_path / "run", frames=4, early=True)
+    run = opening.open(tmp_path / "run")
+    arrival = np.asarray(run.fuel_arrival_time())
+    assert f"{times.utc(run, 0.0):%d %H:%M}" == "13 23:32"
+    assert run.times.tolist() == [0.0, 7200.0, 14400.0, 21600.0]
+    assert 0.0 <= np.nanmin(arrival) < 60.0
+    assert 21000.0 < np.nanmax(arrival) <= 21600.0
+    end = np.nanmin(store.arrival) - np.nanmin(arrival) + 21600.0
+    assert np.array_equal(np.isfinite(arrival), store.arrival <= end)
+    assert run.heat_flux(0).max() == 0.0
+    assert run.heat_flux(1).max() > 1e3
+    afternoon = run.temperature(0).mean() - 273.15  # 16:32 PDT, as of 17 September
+    assert 20.0 < afternoon < 35.0
+    with pytest.raises(firetwin_core.InputError, match="no other pace"):
+        sample.write(tmp_path / "run", frames=4, pace=2.0, early=True)
 
 
 def test_progress_is_told(tmp_path):
