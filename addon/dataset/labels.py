@@ -197,13 +197,13 @@ def _instances(category: int, amodal: Mask, visible: Mask, joined: Mask, width: 
     number = labels[row, column]
     order = np.argsort(number, kind="stable")
     bounds = np.searchsorted(number[order], np.arange(1, count + 2))
-    found = []
+    instances = []
     for first, last in pairwise(bounds.tolist()):
         some = order[first:last]
         if not len(some):
             continue  # smoke that nobody can see
-        found.append(_Instance(category, row[some], column[some], visible[row[some], column[some]]))
-    return sorted(found, key=lambda each: -each.pixels)
+        instances.append(_Instance(category, row[some], column[some], visible[row[some], column[some]]))
+    return sorted(instances, key=lambda each: -each.pixels)
 
 
 def _annotation(
