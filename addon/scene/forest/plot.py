@@ -84,9 +84,11 @@ def _beyond(shot: Shot, height: float, reach: float) -> Plot | None:
         more = int(np.ceil(reach / max(cell, _CELL)))
         rim = np.arange(1, more + 1) * step
         within = np.linspace(low, high, max(round((high - low) / step), 1) + 1)
-        axes.append(np.concatenate([low - rim[::-1], within, high + rim]))
-        number = np.arange(len(axes[-1])) - more
-        inside.append((number >= 0) & (number < len(within)))
+        line = np.concatenate([low - rim[::-1], within, high + rim])
+        number = np.arange(len(line)) - more
+        on_ground = (line >= axis[0] + 0.5 * step) & (line <= axis[-1] - 0.5 * step)
+        axes.append(line[on_ground])
+        inside.append(((number >= 0) & (number < len(within)))[on_ground])
     latitude, longitude = axes
     row, column = _lines(shot, latitude, longitude)
     fuel, elevation = (

@@ -32,6 +32,14 @@ def outward(near_settings, run):
     return Shot(own, run)
 
 
+def half_width(shot):
+    """Half of the narrower side of a run, m."""
+    fields, cell = shot.ground.fields, shot.ground.cell
+    return 0.5 * min(
+        (side - 2 * fields.margin) * size for side, size in zip(fields.elevation.shape, cell, strict=True)
+    )
+
+
 def beyond(shot, grown):
     """Find trees outside of the run's grid."""
     return shot.local_frame.reverse(grown.position)[1] < EDGE
@@ -46,6 +54,17 @@ def test_trees_stand_beyond_the_edge_as_densely_as_within(outward):
     metres = (column - ground.fields.margin) * ground.cell[1]
     steps = np.histogram(metres, bins=[-300.0, -150.0, 0.0, 150.0])[0]
     assert steps.min() > 0.3 * steps.max()
+
+
+def test_none_stands_beyond_the_edge_of_a_narrow_apron(outward, run):
+    narrow = replace(outward.settings.terrain, apron=half_width(outward) + 300.0)
+    shot = Shot(replace(outward.settings, terrain=narrow), run)
+    grown = stand.grow(shot)
+    assert beyond(shot, grown).sum() > 20
+    latitude, longitude = shot.local_frame.reverse(grown.position)[:2]
+    edge = shot.ground.fields
+    assert edge.longitude[0] < longitude.min()
+    assert latitude.max() < edge.latitude[-1]
 
 
 def test_they_are_the_same_for_another_camera(outward, run):
