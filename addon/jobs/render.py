@@ -337,7 +337,7 @@ def _camera(
     tiled = [tile_cut.location(shot)] if shot.settings.tiles.sources else []
     with (
         cache.in_use(*tiled),
-        _solving(choice, shot, hazy, progress) as elsewhere,
+        _solving(choice, shot, hazy, progress, tell) as elsewhere,
         prefetch.smoke(shot, hazy, progress, tell, elsewhere) as ready,
     ):
         for part, group in split_in_chunks(shot, wanted):
@@ -370,9 +370,9 @@ def _with_culling(shot: Shot, stage: Stage, ready: Callable[..., Any]) -> Callab
 
 @contextlib.contextmanager
 def _solving(
-    choice: ShotSource, shot: Shot, frames: list[int], progress: Progress
+    choice: ShotSource, shot: Shot, frames: list[int], progress: Progress, tell: MessageCallback
 ) -> Iterator[solve.Working | None]:
-    """Solve missing smoke of a shot's only camera in a concurrent process."""
+    """Solve missing smoke of a shot's only camera in a concurrent process; first describe its cost."""
     from ..smoke import sources
 
     (camera,) = shot.settings.cameras
@@ -382,6 +382,8 @@ def _solving(
     if not missing:
         yield None
         return
+    if cost := source.cost():
+        tell(cost.describe())
 
     def report(*done: Any) -> None:
         """Report the solver's progress until the first picture can be drawn."""

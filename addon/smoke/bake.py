@@ -177,7 +177,7 @@ class BakeQueue:
     def source(self) -> Source:
         """Smoke source of the frames."""
         source = sources.select(self.shot)
-        if cost := source.cost():
+        if not self.elsewhere and (cost := source.cost()):
             self.tell(cost.describe())
         self.held.enter_context(source.in_use())
         source.progress = lambda *done: self.progress(*done)

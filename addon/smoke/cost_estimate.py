@@ -18,10 +18,14 @@ _KEPT = 2.2  # bytes of a snapshot per cell of its domain, measured with smoke i
 
 @dataclass(frozen=True)
 class Cost:
-    """Cost of solving a flow: s of fire time, s of computation on 2 cores, bytes, cell widths, and folder."""
+    """Cost of solving a flow: s of fire time, s of computation on 2 cores, bytes, cell widths, and folder.
+
+    `first` is the part of the computation, s, that precedes the first picture; 0 if that is solved.
+    """
 
     time: float
     seconds: float
+    first: float
     bytes: float
     cells: str
     folder: Path
@@ -32,10 +36,11 @@ class Cost:
 
     def describe(self) -> str:
         """Describe time, disk space and the alternative in a sentence."""
+        before = f" ({duration(self.first)} before the first picture)" if self.first else ""
         return (
             f"the air over {duration(self.time)} of the fire is solved once in cells of {self.cells}, which "
-            f"takes about {duration(self.seconds)} on 2 cores and {size(self.bytes)} in {self.folder}; "
-            'smoke.method = "preview" takes seconds'
+            f"takes about {duration(self.seconds)} on 2 cores{before} and {size(self.bytes)} in "
+            f'{self.folder}; smoke.method = "preview" takes seconds'
         )
 
 
@@ -47,16 +52,19 @@ def estimate(flow: Flow) -> Cost | None:
     ]
     if not missing:
         return None
-    work = 0.0
+    work = first = 0.0
     for domain in flow.domains:
         begin, step = flow.begin, shot.scale.step
         if domain is not flow.domains[0]:
             begin, step = max(begin, frames.first - shot.scale.time(flow.lead)), step / FINER
         film = (frames.count - 1) * max(1, math.ceil(frames.step / step))  # a step in each frame at least
-        work += domain.cells * (math.ceil((frames.first - begin) / step) + film)
+        spin_up = domain.cells * math.ceil((frames.first - begin) / step)
+        first += spin_up
+        work += spin_up + domain.cells * film
     room = _KEPT * frames.count * sum(domain_left.cells for domain_left in missing)
     folder = flow.domains[-1].folder.parent
-    return Cost(frames.last - flow.begin, work / _SPEED, room, _widths(flow.domains), folder)
+    seconds = work / _SPEED, 0.0 if flow.has(1) else first / _SPEED
+    return Cost(frames.last - flow.begin, *seconds, room, _widths(flow.domains), folder)
 
 
 def _widths(solved: list[Domain]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
@@ -10,10 +11,13 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
+from firetwin.jobs import render, solve  # noqa: E402
+from firetwin.progress import silent  # noqa: E402
 from firetwin.run import readers  # noqa: E402
 from firetwin.shot import run_checks  # noqa: E402
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
+from firetwin.shot.source import ShotSource  # noqa: E402
 from firetwin.smoke import bake, domains, flow_frames, snapshots, sources  # noqa: E402
 from firetwin.smoke.flow import Flow  # noqa: E402
 
@@ -189,10 +193,14 @@ def test_where_nothing_burns_there_is_no_smoke(make, shoot_flow, run):
     assert thick(baked(shoot_flow(make(**run)))) == 0
 
 
-def test_what_solving_takes_is_said_before_it_and_not_after(make, shoot_flow):
+def test_what_solving_takes_is_said_before_it_and_not_after(make, shoot_flow, monkeypatch):
+    monkeypatch.setattr(solve, "in_parallel", lambda *_: nullcontext())
     shot = shoot_flow(make())
-    said = sources.select(shot).cost().describe()
+    told, said = [], sources.select(shot).cost().describe()
     assert said.startswith("the air over 2 min 30 s of the fire is solved once")
+    assert "s before the first picture)" in said
     assert str(shot.settings.cache) in said
+    with render._solving(ShotSource(), shot, [1], silent, told.append):
+        assert told == [said]
     bake.bake(shot)
     assert sources.select(shot).cost() is None
