@@ -42,6 +42,10 @@ SHARE = 0.2
 """Least share of flames in the light of a pixel, in that channel: they then look orange (by eye)."""
 GAP = 0.02
 """Largest gap within an instance, share of the picture's width."""
+PIECE, AROUND = 0.05, 0.05
+"""Smoke with a smaller share of the pixels of a plume is a piece of it, if invisible smoke joins them, or if
+their gap is at most this share of the picture's width. Pieces have no box, and do not widen that of the plume.
+"""
 MIN_PIXELS = 16
 """Least number of visible pixels of an instance with a box."""
 
@@ -93,12 +97,16 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
     smoke = rendered.alpha >= ALPHAS[0]
     seen = smoke & (contrast >= CONTRAST)
     visible, amodal = fire_masks(rendered)
+    width = rendered.camera.width
+    pieces = _pieces(seen, smoke, width)
+    plumes = seen & ~pieces
     found = [
-        *_instances(truth.FIRE, amodal, visible, amodal, rendered.camera.width),
-        *_instances(truth.SMOKE, seen, seen, smoke, rendered.camera.width),
+        *_instances(truth.FIRE, amodal, visible, amodal, width),
+        *_instances(truth.SMOKE, plumes, plumes, smoke, width),
     ]
     large = [each for each in found if each.pixels >= MIN_PIXELS][: truth.MOST]
     small = [each for each in found if not any(each is other for other in large)]
+    small += _instances(truth.SMOKE, pieces, pieces, pieces, width)
     annotations = [
         _annotation(number, each, rendered, place, contrast) for number, each in enumerate(large + small, 1)
     ]
@@ -126,6 +134,7 @@ def thresholds() -> dict[str, Any]:
         "fire": {"band": FIRE_BAND, "glow_of_white": GLOW, "share_of_light": SHARE, "class": "masks: fire"},
         "front": {"hiding_alpha": HIDES},
         "gap_of_width": GAP,
+        "pieces": {"share": PIECE, "gap_of_width": AROUND},
         "min_pixels": MIN_PIXELS,
     }
 
@@ -204,6 +213,15 @@ def _instances(category: int, amodal: Mask, visible: Mask, joined: Mask, width: 
             continue  # smoke that nobody can see
         instances.append(_Instance(category, row[some], column[some], visible[row[some], column[some]]))
     return sorted(instances, key=lambda each: -each.pixels)
+
+
+def _pieces(seen: Mask, smoke: Mask, width: int) -> Mask:
+    """Find the pieces of plumes among the pixels (h, w) of visible smoke."""
+    parts, count = components.group(seen, round(GAP * width))
+    near, groups = components.group(smoke, round(AROUND * width))
+    sizes, plumes = np.bincount(parts[seen], minlength=count + 1), np.zeros(groups + 1, np.int64)
+    np.maximum.at(plumes, near[seen], sizes[parts[seen]])
+    return seen & (sizes[parts] < PIECE * plumes[near])
 
 
 def _annotation(

@@ -110,6 +110,15 @@ def test_smoke_without_contrast_joins_the_parts_of_its_plume():
     assert len(labels.label(parts, PLACE, 1)[0].annotations) == 2
 
 
+@pytest.mark.parametrize(("gap", "boxes", "ignored"), [(14, 1, 1), (60, 2, 0)])
+def test_a_small_piece_next_to_a_plume_has_no_box_and_is_ignored(gap, boxes, ignored):
+    plume, piece = block((40, 140), (40, 140)), block((80, 92), (140 + gap, 152 + gap))
+    found, drawn = labels.label(smoky(plain_samples.plane(CAMERA), plume | piece, 0.3, 3000.0), PLACE, 1)
+    assert (len(found.annotations), len(found.below_size)) == (boxes, ignored)
+    assert found.annotations[0].box == (40.0, 40.0, 140.0, 140.0)
+    assert drawn.smoke[piece].any() == (not ignored)
+
+
 def test_noise_of_the_picture_is_no_contrast():
     sample = smoky(plain_samples.plane(CAMERA), block((40, 200), (40, 200)), 0.3, 3000.0, 0.0)
     noise = np.random.default_rng(0).normal(0.0, 0.03, sample.rgb.shape).astype(np.float32)
