@@ -44,7 +44,7 @@ GAP = 0.02
 """Largest gap within an instance, share of the picture's width."""
 PIECE, AROUND = 0.05, 0.05
 """Smoke with a smaller share of the pixels of a plume is a piece of it, if invisible smoke joins them, or if
-their gap is at most this share of the picture's width. Pieces have no box, and do not widen that of the plume.
+their gap is at most this share of the picture's width. Pieces have no box, and are not in that of the plume.
 """
 MIN_PIXELS = 16
 """Least number of visible pixels of an instance with a box."""
