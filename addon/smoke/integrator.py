@@ -126,27 +126,34 @@ class Integrator:
         Raises
         ------
         InputError
-            The air is too fast for the cells.
+            The air is too fast for the cells, or no longer finite.
         """
         self._update_sources()
         for number, solver in enumerate(self.solvers):
             count = 1 if number == 0 else _count(dt, self.scale)
             try:
                 solver.step(dt / count, count)
-            except Error:
-                raise self._fault(self.domains[number]) from None
+            except Error as error:
+                raise self._fault(self.domains[number], "infinity" in str(error)) from None
         for drift in self.drifts:
             drift.advance()
 
-    def _fault(self, domain: Domain) -> InputError:
-        """Explain that the air of a domain is too fast for its cells, which heat does in calm air, too."""
+    def _fault(self, domain: Domain, diverged: bool) -> InputError:
+        """Explain that the air of a domain is too fast for its cells, which heat does in calm air, too.
+
+        Parameters
+        ----------
+        diverged
+            Its values are no longer finite.
+        """
         run = self.shot.run
         power = float(self.shot.fire.sources(self.now).power.sum())
         wind = float(np.hypot(*self.winds[min(self.slot or 0, len(self.winds) - 1)]))
         moment, cell = times.iso(times.utc(run, self.now)), domain.box.spacing
         reason = (
             f"the smoke's flow has no solution at {moment}: with {power / 1e9:,.3g} GW of fire in a wind of "
-            f"{wind:.3g} m/s, the air is too fast for cells of {cell:,.0f} m; check heat_flux at this time, "
+            f"{wind:.3g} m/s, the air {'becomes infinitely' if diverged else 'is too'} fast for cells of "
+            f"{cell:,.0f} m; check heat_flux at this time, "
             'or set smoke.method = "preview" (wider cells) or smoke.enabled = false'
         )
         return input_error(Path(run.path), reason)

@@ -36,7 +36,16 @@ def test_smoke_of_a_fire_without_fuel_is_not_of_crowns(tmp_path, monkeypatch):
     assert plume_mass.describe(shot).endswith("from its heat, as no fuel burns")
 
 
-def test_air_that_is_too_fast_for_its_cells_is_an_error_with_file_time_and_remedy(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        ("the wind is too strong for the grid; use a shorter time step", "is too fast"),
+        ("the flow has diverged to infinity; use a shorter time step", "becomes infinitely fast"),
+    ],
+)
+def test_air_that_is_too_fast_for_its_cells_is_an_error_with_file_time_and_remedy(
+    tmp_path, monkeypatch, fault, words
+):
     run = readers.open(whole_run.write(tmp_path / "run", cells=16, wind=(0.0, 0.0), speed=0.1))
     start = times.utc(run, run.times[0] + 1800.0)
     shot = Shot(Settings(path=tmp_path / "scene.toml", time=Time(start=start, frames=1)), run)
@@ -44,9 +53,11 @@ def test_air_that_is_too_fast_for_its_cells_is_an_error_with_file_time_and_remed
     solving = Integrator(solved.shot, solved.domains, Event(), 1)
 
     def fail(*_):
-        raise Error("the wind is too strong for the grid; use a shorter time step")
+        raise Error(fault)
 
     fast = SimpleNamespace(time=60.0, step=fail, set_wind=lambda _: None, set_sources=lambda *_: None)
     monkeypatch.setattr(solving, "solvers", [fast])
-    with pytest.raises(InputError, match=r"run: .* at 2020-07-01T2.*wind of 0 m/s.*smoke.enabled = false"):
+    with pytest.raises(
+        InputError, match=rf"run: .* at 2020-07-01T2.*wind of 0 m/s, the air {words}.*smoke.enabled = false"
+    ):
         solving.advance(1.0)
