@@ -7,7 +7,7 @@ from pathlib import Path
 
 import bpy
 
-from ..errors import Error
+from ..errors import Error, InputError, input_error
 from ..progress import count
 from ..ui import job, render, run, scene_file, working
 from ..ui.job import InThread, Steps
@@ -69,7 +69,13 @@ class FIRETWIN_OT_export_to(Working, bpy.types.Operator):
             smoke=panel.export_smoke,
             overwrite=panel.export_overwrite,
         )
-        made = yield InThread("exporting", lambda **callbacks: export_job.run(replace(request, **callbacks)))
+        try:
+            made = yield InThread(
+                "exporting", lambda **callbacks: export_job.run(replace(request, **callbacks))
+            )
+        except InputError as error:
+            reason = error.reason.replace("add --overwrite", "set Overwrite")
+            raise input_error(error.path, reason, kind=type(error)) from error
         return f"Wrote {count(len(made), 'file')} to {out}"
 
 

@@ -46,7 +46,7 @@ def run(
     Number of pictures that were rendered.
     """
     from ..render import exr_clock, plan
-    from ..render.store import Store
+    from ..render.store import Store, refuse_others
     from ..shot import passes
 
     shot = choice.shot()
@@ -55,6 +55,7 @@ def run(
         picture for picture in planned if "@" not in picture.camera and not passes.compares(picture.name)
     ]
     tile_terms.check(shot.settings, tile_terms.of_passes(picture.name for picture in wanted))
+    refuse_others(asked.out, dict.fromkeys(picture.camera for picture in wanted))
     with blend.open("rb") as file:
         digest = hashlib.file_digest(file, "sha256").hexdigest()
     made_with = _made_with(digest, wanted)

@@ -199,7 +199,7 @@ def _error_text(error: BaseException) -> str:
     if isinstance(error, InputError) and Path(error.path).parent == scene_file.temporary_folder():
         return keys.sentence(error.reason)  # the user does not know this temporary file
     if isinstance(error, Error):
-        return str(error)
+        return str(error).replace(", or add --overwrite", "").replace(" for --out", "")
     if isinstance(error, OSError) and error.filename:
         return f"{error.filename}: {error.strerror}"
     unexpected[:] = traceback.format_exception(error)

@@ -7,12 +7,13 @@ receive its path.
 from __future__ import annotations
 
 import hashlib
+import os
 from dataclasses import replace
 from pathlib import Path
 
 import bpy
 
-from .. import files
+from .. import files, output
 from ..blender import compat
 from ..errors import Error
 from ..shot.schema import validate
@@ -108,7 +109,10 @@ def temporary_folder() -> Path:
 def write_temporary(scene: bpy.types.Scene) -> Path:
     """Write the panel's scene file for a job; its name contains a digest of its text."""
     text = scene_file.text(read_settings(scene, temporary_folder() / "scene.toml"))
-    return _kept(temporary_folder() / f"{_digest(text)}.toml", text)
+    path = temporary_folder() / f"{_digest(text)}.toml"
+    if not path.is_file():
+        files.write_text(path, text)
+    return path
 
 
 def write_next_to_blend(scene: bpy.types.Scene) -> tuple[Path, bool]:
@@ -119,19 +123,20 @@ def write_next_to_blend(scene: bpy.types.Scene) -> tuple[Path, bool]:
     Returns
     -------
     path, whether it is new
+
+    Raises
+    ------
+    InputError
+        Another file has this name, or the file cannot be written.
     """
     blend = Path(bpy.data.filepath)
     text = scene_file.text(read_settings(scene, blend.with_suffix(".toml")))
     path = blend.with_name(f"{blend.stem}_farm_{_digest(text)[:8]}.toml")
-    fresh = not path.is_file()
-    return _kept(path, text), fresh
+    fresh = not os.path.lexists(path)
+    if fresh or not output.is_own(path):
+        output.write_text(path, text)
+    return path, fresh
 
 
 def _digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def _kept(path: Path, text: str) -> Path:
-    if not path.is_file():
-        files.write_text(path, text)
-    return path

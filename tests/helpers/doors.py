@@ -1,7 +1,7 @@
 """Commands that write files for their user: a cheap call of each, and what becomes of the files in its way.
 
 The work of a command (drawing, solving, Blender) is replaced by a few bytes; its writer is the real one. As a
-script it prints the table.
+script ``tests/unit/project/test_doors.py`` prints the table.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ import io
 import os
 import resource
 import shutil
-import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -54,14 +53,14 @@ class Door:
     Attributes
     ----------
     words
-        Command line; paths are relative to the current folder.
+        Command line, or a call with further words; paths are relative to the current folder.
     outputs
         Files that it writes.
     prepare
         Makes its inputs, and replaces its work.
     """
 
-    words: str
+    words: str | Callable[..., Call]
     outputs: tuple[str, ...]
     prepare: Callable[[Patch], object]
 
@@ -399,6 +398,8 @@ class Call:
 
 def call(door: Door, *more: str) -> Call:
     """Run a command line in this process."""
+    if not isinstance(door.words, str):
+        return door.words(*more)
     words, said = door.words.split(), io.StringIO()
     with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
         status = cli.main([*words, *more])
@@ -555,34 +556,33 @@ STATES: dict[str, Callable[[Door, Path], Outcome]] = {
 _ONCE = {"own", "own, changed, --overwrite", "others beside it", "full disk", "killed"}
 
 
-def run(name: str, state: str, path: str, folder: Path) -> Outcome:
+def run(door: Door, state: str, path: str, folder: Path) -> Outcome:
     """Run a state of a door in an empty folder."""
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
-        door = DOORS[name]
         door.prepare(patch)
         return STATES[state](door, Path(path))
 
 
-def states(name: str, path: str) -> list[str]:
+def states(door: Door, path: str) -> list[str]:
     """List the states that are tried for a file; those of whole commands only for their first file."""
-    return [state for state in STATES if state not in _ONCE or path == DOORS[name].outputs[0]]
+    return [state for state in STATES if state not in _ONCE or path == door.outputs[0]]
 
 
-def table() -> Iterator[tuple[str, ...]]:
+def table(doors: dict[str, Door]) -> Iterator[tuple[str, ...]]:
     """Rows: command, file, and the outcome of each state."""
-    yield ("command", "file", *STATES)
-    for name, door in DOORS.items():
+    yield ("command or operator", "file", *STATES)
+    for name, door in doors.items():
         for path in door.outputs:
-            found = dict.fromkeys(STATES, "as above")
-            for state in states(name, path):
+            outcomes = dict.fromkeys(STATES, "as above")
+            for state in states(door, path):
                 place = Path(tempfile.mkdtemp())
-                found[state] = run(name, state, path, place)
+                outcomes[state] = run(door, state, path, place)
                 shutil.rmtree(place, ignore_errors=True)
-            yield (name, path, *found.values())
+            yield (name, path, *outcomes.values())
 
 
-if __name__ == "__main__":
-    for row in table():
-        print(f"| {' | '.join(row)} |")
-        sys.stdout.flush()
+def print_table(doors: dict[str, Door]) -> None:
+    """Print a line for each file of each door."""
+    for row in table(doors):
+        print(f"| {' | '.join(row)} |", flush=True)

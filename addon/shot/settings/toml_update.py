@@ -7,18 +7,20 @@ camera move with it. Within a block tomlkit edits the keys.
 from __future__ import annotations
 
 import itertools
+import os
 import re
 import tomllib
 from collections.abc import Iterator, Set
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT
 
-from ... import files, unfinished
-from ...errors import Error
+from ... import files, output, unfinished
+from ...errors import Error, input_error
 from ...limits import SETTINGS_BYTES
 from ...toml_text import Where, places, tables
 from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
@@ -39,25 +41,44 @@ class Block:
 
 
 def save(whole: Settings) -> None:
-    """Write settings to their own file; an existing one is updated as by `updated`.
+    """Write settings to their own file; an existing scene file is updated as by `updated`.
 
     Raises
     ------
     InputError
-        The file cannot be written.
+        The file cannot be written, is a link, or is not a scene file.
     """
     path = whole.path
-    try:
-        files.check_size(path, SETTINGS_BYTES)
-        raw = path.read_bytes()
-        new = updated(raw.decode("utf-8-sig").replace("\r\n", "\n"), whole)
-    except (OSError, UnicodeDecodeError):
-        raw, new = b"", text(whole)
-    newline = "\r\n" if b"\r\n" in raw else "\n"
+    if os.path.lexists(path):
+        before = _read(path)
+        new = updated(before.replace("\r\n", "\n"), whole)
+    else:
+        output.check(path)
+        before, new = "", text(whole)
     with unfinished.folder(path) as folder:
         part = folder / path.name
-        part.write_text(new, encoding="utf-8", newline=newline)
+        part.write_text(new, encoding="utf-8", newline="\r\n" if "\r\n" in before else "\n")
         files.publish(part, path)
+
+
+def _read(path: Path) -> str:
+    """Read a scene file that may be replaced; returns its text with its line ends.
+
+    Raises
+    ------
+    InputError
+        It is another file, a link, or write-protected.
+    """
+    output.check(path, overwrite=True, root=path.parent)
+    if path.is_symlink():
+        raise input_error(path, "is a link, which is not followed; choose another name")
+    files.check_size(path, SETTINGS_BYTES)
+    try:
+        before = path.read_bytes().decode("utf-8-sig")
+        parse(before.replace("\r\n", "\n"), path)
+    except (Error, OSError, ValueError, RecursionError):
+        raise input_error(path, "exists already and is not a scene file; choose another name") from None
+    return before
 
 
 def updated(there: str, whole: Settings) -> str:

@@ -86,6 +86,17 @@ def test_a_job_of_changed_settings_needs_another_folder_and_leaves_no_file(panel
     assert len(list(blend.parent.iterdir())) == len(before) + 1
 
 
+def test_a_scene_file_of_others_is_not_the_jobs(panel, blend):
+    panel.light.haze = 0.3
+    bpy.ops.firetwin.farm_write()
+    path = max(blend.parent.glob("scene_farm_*.toml"), key=lambda each: each.stat().st_mtime_ns)
+    before = path.read_bytes()
+    path.write_bytes(before + b"seed = 7\n")
+    with pytest.raises(RuntimeError, match="has changed since Firetwin wrote it; choose another name"):
+        bpy.ops.firetwin.farm_write()
+    assert path.read_bytes() == before + b"seed = 7\n"
+
+
 def test_what_is_submitted_is_followed_resumed_and_cancelled(panel, tmp_path, slurm):
     panel.farm_options, panel.render.chunk, panel.farm_chunk = "--partition=gpu --comment='two words'", 1, 1
     assert bpy.ops.firetwin.farm_submit() == {"FINISHED"}

@@ -1,13 +1,19 @@
-"""All commands that write files for their user follow one rule (see `firetwin.output`); no file is lost."""
+"""All commands that write files for their user follow one rule (see `firetwin.output`); no file is lost.
+
+``python tests/unit/project/test_doors.py`` prints a table of the commands and of Blender's operators.
+"""
 
 import os
 import sys
 from pathlib import Path
 
-import doors
 import pytest
+
+sys.path.append(str(Path(__file__).parents[2] / "helpers"))
+import doors
 from firetwin import output, written
 from firetwin.errors import InputError
+from firetwin.shot.settings import Settings, toml_update
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forks, and limits the size of files")
 
@@ -69,13 +75,28 @@ def test_a_folder_of_others_is_refused(name, tmp_path):
 
 @pytest.mark.parametrize(("name", "path"), CASES)
 def test_no_file_is_lost(name, path, tmp_path):
-    for number, state in enumerate(doors.states(name, path)):
+    for number, state in enumerate(doors.states(doors.DOORS[name], path)):
         folder = tmp_path / str(number)
         folder.mkdir()
         expected = EXPECTED[state] | (BLEND.get(state, set()) if path.endswith(".blend") else set())
         if path in MARKS and state != "own":
             expected = expected | {"refused"}
-        assert doors.run(name, state, path, folder) in expected, state
+        assert doors.run(doors.DOORS[name], state, path, folder) in expected, state
+
+
+@pytest.mark.parametrize("state", ["own", "full disk", "killed"])
+def test_a_scene_file_is_not_lost(state, tmp_path):
+    """Blender does not survive a fork, so `firetwin.export` is tried without it."""
+
+    def save(*_):
+        try:
+            toml_update.save(Settings(path=Path("scene.toml"), run=Path("run"), cache=Path("cache")))
+        except InputError as error:
+            return doors.Call(1, str(error))
+        return doors.Call(0, "")
+
+    door = doors.Door(save, ("scene.toml",), lambda _: None)
+    assert doors.run(door, state, "scene.toml", tmp_path) in EXPECTED[state]
 
 
 def write(path, text, **more):
@@ -154,3 +175,10 @@ def test_a_blend_file_that_is_ours_leaves_the_kept_one(tmp_path):
 def test_names_that_are_paths_are_no_names(name):
     assert not output.is_plain_name(name)
     assert output.is_plain_name(f"{name}-1".translate({ord(each): "x" for each in "./\\:\n\x1b"}))
+
+
+if __name__ == "__main__":
+    import operator_doors
+
+    doors.print_table(doors.DOORS)
+    operator_doors.print_table()
