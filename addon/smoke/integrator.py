@@ -175,8 +175,8 @@ class Integrator:
         """Update heat and smoke sources and the ambient wind.
 
         The sources of a slot are their mean over its steps. Heat ramps up, smoke does not: all emission since
-        the beginning is in the air or has left. Each domain gets only the sources inside, because gusts
-        conserve the sum of a domain's sources.
+        the beginning is in the air or has left, and sums to `Fire.smoke_made`. Each domain gets only the
+        sources inside, because gusts conserve the sum of a domain's sources.
         """
         slot = self.slot_of[self.step]
         if slot == self.slot:
@@ -192,6 +192,9 @@ class Integrator:
         heat, smoke = (
             np.concatenate([getattr(part, name) for part in parts]) / _PARTS for name in ("power", "smoke")
         )
+        emitted = self.shot.fire.smoke_made(float(self.begin + begin), float(self.begin + end))
+        if (mean := float(smoke.sum())) > 0.0:
+            smoke *= emitted / ((end - begin) * mean)
         ramp = min(1.0, (slot + 1) * _SOURCE_STEP / _RAMP)
         for domain, solver in zip(self.domains, self.solvers, strict=False):
             inside = domain.box.contains(position)

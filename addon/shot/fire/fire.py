@@ -28,7 +28,7 @@ from .heat_release import Array, Sources
 
 _FLAMES = emissions.column("residence")
 _HEAT, _SMOKE = ([emissions.column(name, part) for part in (0, 1)] for name in ("heat", "smoke"))
-_LOOK, _MAX_SAMPLES = 30.0, 240  # s between samples of the heat release, and samples at most
+_LOOK, _MAX_SAMPLES = 2.0, 2000  # s between samples of the smoke, and samples of the shot at most
 _LINEAR = 0.5, 2.0  # limits of the factor to a linear course of the total power
 _MOMENTS = 3  # times at which the fire's power is sampled for its column
 _AHEAD = 600.0  # s after the last frame; includes fuel that ignites in the interval under way then
@@ -210,11 +210,33 @@ class Fire:
         return emissions.mix(smoke_of_kind, heat_of, float(power))
 
     def smoke_made(self, first: float, last: float) -> float:
-        """Smoke emitted between two model times (s), kg, by the trapezoidal rule."""
-        step = max(_LOOK, (last - first) / _MAX_SAMPLES)
-        times = np.linspace(first, last, max(1, math.ceil((last - first) / step)) + 1)
-        rate = np.array([self.sources(float(time)).smoke.sum() for time in times])
-        return float(np.sum(0.5 * (rate[1:] + rate[:-1]) * np.diff(times)))
+        """Smoke emitted between two model times (s) of the shot or of the time before it, kg.
+
+        Parts of a span add up to the span: the rate is constant in each of the same intervals.
+        """
+        edges = self._intervals
+        within = np.diff(np.clip(edges, first, last))
+        for number in np.flatnonzero((within > 0.0) & np.isnan(self._smoke_rates)):
+            middle = float(edges[number : number + 2].mean())
+            self._smoke_rates[number] = self.sources(middle).smoke.sum()
+        return float(within[within > 0.0] @ self._smoke_rates[within > 0.0])
+
+    @cached_property
+    def _intervals(self) -> Array:
+        """Borders (n + 1,) of the intervals of `smoke_made`, s; the first frame is one of them."""
+        step = max(_LOOK, (self.last - self.first) / _MAX_SAMPLES)
+        before, during = (math.ceil(span / step - 1e-9) for span in (self.before, self.last - self.first))
+        return np.concatenate(
+            [
+                np.linspace(self.first - self.before, self.first, before, endpoint=False),
+                np.linspace(self.first, self.last, during + 1),
+            ]
+        )
+
+    @cached_property
+    def _smoke_rates(self) -> Array:
+        """Smoke (n,) of the intervals, kg/s; NaN until it is needed."""
+        return np.full(len(self._intervals) - 1, np.nan)
 
     @cached_property
     def surroundings(self) -> tuple[slice, slice]:

@@ -68,7 +68,7 @@ def test_the_smoke_is_that_of_the_fire(shot):
     solved = flow.Flow(shot)
     solved.ready(1)
     emitted = snapshots.load(solved.domains[0].snapshot_path(1)).mass["emitted"]
-    assert emitted == pytest.approx(shot.fire.smoke_made(solved.begin, shot.frames.first), rel=0.005)
+    assert emitted == pytest.approx(shot.fire.smoke_made(solved.begin, shot.frames.first), rel=1e-3)
 
 
 def test_how_deep_smoke_is_comes_from_its_mass(shot):

@@ -1,5 +1,7 @@
 """Extreme runs: gaps of heat flux, a single cell, cells as wide as a county, and a flux beyond any flame."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import whole_run
@@ -74,6 +76,17 @@ def test_a_run_of_few_cells_releases_the_heat_that_its_smoke_is_of(make, cells):
     assert fire.smoke_made(0.0, 3600.0) > 0.0
     warned = [text for text in run_warnings.of_fire(run) if "single cell" in text]
     assert len(warned) == (cells == 1)
+
+
+def test_smoke_of_parts_of_a_shot_adds_up(make):
+    run = make(16, [((8, slice(2, 6)), 5e4)])
+    fire = Fire(run, 1800.0, 3000.0, before=1800.0)
+    edges = np.linspace(600.0, 3000.0, 66)
+    parts = [fire.smoke_made(*ends) for ends in pairwise(edges)]
+    assert sum(parts) == pytest.approx(fire.smoke_made(600.0, 3000.0), rel=1e-9)
+    short = Fire(run, 1800.0, 1800.002, before=600.0)
+    rate = short.sources(1800.001).smoke.sum()
+    assert short.smoke_made(1800.0, 1800.002) == pytest.approx(0.002 * rate)
 
 
 @pytest.mark.parametrize(("fuel_cell", "coarse"), [(30.0, False), (4800.0, False), (10_000.0, True)])

@@ -61,3 +61,25 @@ def test_air_that_is_too_fast_for_its_cells_is_an_error_with_file_time_and_remed
         InputError, match=rf"run: .* at 2020-07-01T2.*wind of 0 m/s, the air {words}.*smoke.enabled = false"
     ):
         solving.advance(1.0)
+
+
+def test_the_flow_emits_the_smoke_of_the_fire(tmp_path, monkeypatch):
+    run = readers.open(
+        whole_run.write(
+            tmp_path / "run", cells=32, cell=10.0, times=(0.0, 60.0, 150.0, 600.0, 720.0, 1200.0), lasts=60.0
+        )
+    )
+    time = Time(start=times.utc(run, run.times[0] + 600.0), frames=8, fps=1, speed=60.0)
+    solved = coarse.CoarseFlow(Shot(Settings(path=tmp_path / "scene.toml", time=time), run))
+    solving = Integrator(solved.shot, solved.domains, Event(), 1)
+    rates = []
+    solver = SimpleNamespace(set_wind=lambda _: None, set_sources=lambda *parts: rates.append(parts[2].sum()))
+    monkeypatch.setattr(solving, "solvers", [solver])
+    emitted = 0.0
+    for step, length in enumerate(solving.steps):
+        solving.step = step
+        solving._update_sources()
+        emitted += length * rates[-1]
+    shot = solved.shot
+    assert len(rates) > 3
+    assert emitted == pytest.approx(shot.fire.smoke_made(solving.begin, shot.frames.last), rel=1e-3)
