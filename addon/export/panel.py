@@ -70,13 +70,13 @@ class FIRETWIN_OT_export_to(Working, bpy.types.Operator):
             overwrite=panel.export_overwrite,
         )
         try:
-            made = yield InThread(
+            paths = yield InThread(
                 "exporting", lambda **callbacks: export_job.run(replace(request, **callbacks))
             )
         except InputError as error:
             reason = error.reason.replace("add --overwrite", "set Overwrite")
             raise input_error(error.path, reason, kind=type(error)) from error
-        return f"Wrote {count(len(made), 'file')} to {out}"
+        return f"Wrote {count(len(paths), 'file')} to {out}"
 
 
 class FIRETWIN_PT_export(SidebarPanel, bpy.types.Panel):
