@@ -112,7 +112,8 @@ def clear_sky(
     way = 1.0e-3 * _HALF / (np.maximum(sine, 0.0) + _CURVED)
     clear = np.exp(-air_depth(shot, float(place[2])) * way**_BEND)
     band = BANDS[shot.settings.thermal.band]
-    own = sensor.radiance(air.at(place) - model.LAPSE * _HALF * np.maximum(sine, 0.0), band)
+    kelvin = air.at(place) - model.LAPSE * _HALF * np.maximum(sine, 0.0)
+    own = sensor.radiance(np.maximum(kelvin, _BACKGROUND), band)  # above 45 km the lapse leads below 0 K
     return clear * sensor.radiance(_BACKGROUND, band) + (1.0 - clear) * own
 
 

@@ -35,3 +35,9 @@ def test_humid_air_makes_the_sky_warmer_and_height_colder(settings, run):
     assert np.all(humid > dry)
     high, low = (sky_kelvin(Shot(settings, run), height)[0][2:] for height in (3000.0, 300.0))
     assert np.all(high < low)
+
+
+@pytest.mark.parametrize("height", [50e3, 500e3])
+def test_a_camera_above_the_air_has_the_cold_background(shot, height):
+    kelvin, _ = sky_kelvin(shot, height)
+    assert kelvin == pytest.approx(infrared._BACKGROUND, abs=0.1)
