@@ -105,3 +105,12 @@ def size(text: str) -> int:
     if not match or match[2].upper() not in _UNITS:
         raise argparse.ArgumentTypeError(f"must be a size such as 500MB or 20GB, not {text!r}")
     return round(float(match[1]) * _UNITS[match[2].upper()])
+
+
+def resolution(text: str) -> tuple[int, int]:
+    """Convert a width and a height, such as ``640x360``, both even."""
+    width, _, height = text.lower().partition("x")
+    sides = [int(side) if side.isdecimal() else 0 for side in (width, height)]
+    if not all(16 <= side <= 16384 and side % 2 == 0 for side in sides):
+        raise argparse.ArgumentTypeError(f'"{text}" is not a size such as 640x360, of two even numbers')
+    return sides[0], sides[1]

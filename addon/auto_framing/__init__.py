@@ -60,16 +60,9 @@ def fit(run: Run, settings: Settings) -> FittedScene:
     If they have the shot's start or end, cameras are fitted to that window, and no other is searched.
     """
     time, words = window.choose(run, settings.time)
-    smoke = settings.smoke
-    if not smoke_scale.resolves_plume(max(burning.fuel_cell(run))):
-        smoke, words = replace(smoke, enabled=False), f"{words}; no smoke, as the fuel cells resolve no plume"
-    settings = replace(
-        settings,
-        smoke=smoke,
-        time=time,
-        terrain=replace(settings.terrain, error=0.1),
-        render=replace(settings.render, samples=3, passes=("rgb", "thermal")),
-    )
+    smoky, settings = settings.smoke.enabled, replace(fit_draft(run, settings), time=time)
+    if smoky and not settings.smoke.enabled:
+        words = f"{words}; no smoke, as the fuel cells resolve no plume"
     shot = Shot(settings, run)
     moving = front.find_front(shot)
     placed = _placed(moving)
@@ -78,6 +71,17 @@ def fit(run: Run, settings: Settings) -> FittedScene:
         {camera.camera.name: getattr(camera, name) for camera in placed} for name in ("words", "share")
     )
     return FittedScene(whole, run.name, words, said, shares)
+
+
+def fit_draft(run: Run, settings: Settings) -> Settings:
+    """Fit settings of drafts to a run, without its time window and cameras."""
+    resolved = smoke_scale.resolves_plume(max(burning.fuel_cell(run)))
+    return replace(
+        settings,
+        smoke=settings.smoke if resolved else replace(settings.smoke, enabled=False),
+        terrain=replace(settings.terrain, error=0.1),
+        render=replace(settings.render, samples=3, passes=("rgb", "thermal")),
+    )
 
 
 def fit_folder(folder: Path, path: Path, cache: Path, time: Time | None = None) -> FittedScene:

@@ -326,13 +326,27 @@ def drop_copies() -> None:
 
 
 def new_strip(
-    editor: bpy.types.SequenceEditor, name: str, kind: str, channel: int, start: int, length: int
+    editor: bpy.types.SequenceEditor,
+    name: str,
+    kind: str,
+    channel: int,
+    start: int,
+    length: int,
+    inputs: Sequence[bpy.types.Strip] = (),
 ) -> bpy.types.Strip:
-    """Add an effect strip to the sequencer; 5.0 expects its length, 4.5 its end."""
+    """Add an effect strip of `inputs` to the sequencer; 5.0 expects its length, 4.5 its end."""
     strips = editor.strips
     parameters = strips.bl_rna.functions["new_effect"].parameters
     extent = {"length": length} if "length" in parameters else {"frame_end": start + length}
-    return strips.new_effect(name=name, type=kind, channel=channel, frame_start=start, **extent)
+    sources = {f"input{number}": strip for number, strip in enumerate(inputs, start=1)}
+    return strips.new_effect(name=name, type=kind, channel=channel, frame_start=start, **extent, **sources)
+
+
+def strip_span(strip: bpy.types.Strip) -> tuple[int, int]:
+    """Return the first frame and the length of a strip, which have other names from 5.2 on."""
+    if hasattr(strip, "left_handle"):
+        return int(strip.left_handle), int(strip.duration)
+    return int(strip.frame_final_start), int(strip.frame_final_duration)
 
 
 def march_through_volumes(cycles: bpy.types.PropertyGroup) -> None:

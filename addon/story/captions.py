@@ -43,6 +43,12 @@ class Caption:
     facts: str = ""
 
     @property
+    def lines(self) -> str:
+        """Facts for the picture, in two lines without the word "synthetic", which a picture has elsewhere."""
+        clock, _, rest = self.facts.removesuffix(f"{SEPARATOR}{SYNTHETIC}").partition(SEPARATOR)
+        return f"{clock}\n{rest}"
+
+    @property
     def text(self) -> str:
         """Words and facts."""
         return f"{self.words}\n{self.facts}".strip()
@@ -89,7 +95,7 @@ def _filled(story: Storyboard, run: Run, caption: Caption, area: float) -> Capti
     parts = [
         _clocks(caption.moment, story.zone or "UTC"),
         speed_text(caption.span.shot.speed),
-        measure.area(area, cast(Units, story.units)),
+        f"{measure.area(area, cast(Units, story.units))} burned",
     ]
     if run.synthetic:
         parts.append(SYNTHETIC)

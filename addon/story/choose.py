@@ -17,10 +17,12 @@ from ..run import areas, citations, labels, sun, times, zone
 from ..run.labels import Label
 from ..shot.sections import Time
 from ..stations import fire_arrival
-from .storyboard import CARD, FLIGHT, GLOBE, GROUND, MAP, Omission, Storyboard, StoryShot
+from .storyboard import ABOVE, CARD, FLIGHT, GLOBE, GROUND, MAP, Omission, Storyboard, StoryShot
 
 _NEAR = 10.0  # km of a named place from burned ground, within which a camera at the place shows the fire
 _PACE = re.compile(r"; \d+ frames, [\d.,]+ times real time")
+_SUNRISE = 0.0  # degrees, elevation of the sun above which there is daylight
+_SUN_STEP = 1800.0  # s between solar elevations
 _LIMITS = "Simulated. Not for operational use."
 _CREDITS = ("fire model", "observations", "software")
 _LENGTHS = {  # s
@@ -29,7 +31,7 @@ _LENGTHS = {  # s
     "growth": 20.0,
     "arrival": 6.0,
     "active": 8.0,
-    "infrared": 6.0,
+    "infrared": 8.0,
     "ground": 6.0,
     "scar": 5.0,
     "end": 6.0,
@@ -69,6 +71,12 @@ class _Subject:
             arrival = self.run.fuel_arrival_time()
             burns = np.any((arrival >= self.first) & (arrival <= self.last))
         return "" if burns else "nothing burns in the run"
+
+    @cached_property
+    def bright(self) -> float:
+        """Model time of the highest sun in the run's first day, s."""
+        sampled = np.arange(self.first, min(self.last, self.first + 86400.0) + 1.0, _SUN_STEP)
+        return float(max(sampled, key=lambda time: sun.position(self.run, float(time))[1]))
 
     @cached_property
     def window(self) -> tuple[float, float, str]:
@@ -141,10 +149,16 @@ def _title(subject: _Subject) -> Choice:
 def _place(subject: _Subject) -> Choice:
     if subject.last <= subject.first:
         return Omission("place", subject.still)
-    end = subject.first + _LENGTHS["place"]
-    reason = "shows where on the Earth the fire is"
+    start = subject.bright
+    reason = f"shows where on the Earth the fire is{_light(subject, start)}"
     return subject.shot(
-        "place", subject.first, end, camera=GLOBE, smoke=False, caption="The place", reason=reason
+        "place",
+        start,
+        start + _LENGTHS["place"],
+        camera=GLOBE,
+        smoke=False,
+        caption="The place",
+        reason=reason,
     )
 
 
@@ -181,8 +195,7 @@ def _infrared(subject: _Subject) -> Choice:
     if subject.still:
         return Omission("infrared", subject.still)
     caption, reason = "The same minutes in infrared", "shows heat that smoke hides from the eye"
-    start = subject.activity()[0]
-    end = start + subject.window[1] * _LENGTHS["infrared"]
+    start, end = subject.activity()
     return subject.shot(
         "infrared", start, end, camera="chase", render_pass="thermal", caption=caption, reason=reason
     )
@@ -212,10 +225,18 @@ def _ground(subject: _Subject) -> Choice:
 def _scar(subject: _Subject) -> Choice:
     if subject.still:
         return Omission("scar", subject.still)
-    caption, reason = "Burned ground at the end of the run", "shows the burned ground without smoke"
-    start = subject.last - _LENGTHS["scar"]
+    caption, start = "Burned ground at the end of the run", subject.last - _LENGTHS["scar"]
+    dark = sun.position(subject.run, subject.last)[1] <= _SUNRISE
+    reason = "shows the burned ground without smoke" + ", by its heat, as it is night" * dark
     return subject.shot(
-        "scar", start, subject.last, camera="satellite", smoke=False, caption=caption, reason=reason
+        "scar",
+        start,
+        subject.last,
+        camera=ABOVE,
+        render_pass="thermal" if dark else "rgb",
+        smoke=False,
+        caption=caption + ", in infrared" * dark,
+        reason=reason,
     )
 
 
@@ -227,7 +248,7 @@ def _end(subject: _Subject) -> Choice:
 
 
 def _light(subject: _Subject, time: float) -> str:
-    return " by daylight" if sun.position(subject.run, time)[1] > 0.0 else " by night"
+    return " by daylight" if sun.position(subject.run, time)[1] > _SUNRISE else " by night"
 
 
 _PARTS: tuple[Callable[[_Subject], Choice], ...] = (

@@ -9,21 +9,44 @@ from .. import argument_types as types
 from ..command import FILMS, Command, add_overwrite, add_scene
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    from firetwin_core.run import Run
+
+    from .captions import Caption
     from .storyboard import Storyboard
 
 _DETAIL = """\
 DIR/story.toml           storyboard: shots with reason, times, camera and caption
 DIR/story.srt, .vtt      captions
+DIR/shots/NAME           pictures of a shot; shots/NAME.toml is its scene file
+DIR/story.blend          project of Blender's Video Sequencer
+DIR/story.mp4            the film, which Blender renders from the project
 
 The storyboard is chosen from the run if DIR has none; otherwise the storyboard there is used, with all its
 changes. Shots that the run cannot give are listed with the reason. Numbers in captions are computed from the
-run."""
+run. In the project, strips that you moved, cut or rewrote stay; the others follow the storyboard."""
 
 
 def _add(parser: argparse.ArgumentParser) -> None:
     """Define the arguments."""
     add_scene(parser)
     parser.add_argument("--out", metavar="DIR", type=types.path, required=True, help="folder to write")
+    parser.add_argument(
+        "--storyboard", action="store_true", help="write the storyboard and the captions only"
+    )
+    parser.add_argument(
+        "--quality",
+        choices=("draft", "review", "final"),
+        default="draft",
+        help="draft: stills with slow moves; review: 12 pictures a second; final: all frames (draft)",
+    )
+    parser.add_argument(
+        "--size", metavar="WxH", type=types.resolution, help="size of the pictures (by quality)"
+    )
+    parser.add_argument(
+        "--resume", action="store_true", help="keep finished pictures whose inputs have not changed"
+    )
     parser.add_argument("--units", choices=("us", "metric"), default="us", help="units of captions (us)")
     add_overwrite(parser)
 
@@ -46,8 +69,28 @@ def _run(arguments: argparse.Namespace) -> None:
     say(f"{len(spans)} shots, {timeline.frames(spans) / story.fps:.0f} s")
     for path, write in zip(paths, (captions.srt, captions.vtt), strict=True):
         output.write_text(path, write(shown, story.fps), arguments.overwrite, newline="\n")
-    for path in (arguments.out / story_file.NAME, *paths):
+    paths.insert(0, arguments.out / story_file.NAME)
+    if not arguments.storyboard:
+        paths += _film(arguments, story, run, shown)
+    for path in paths:
         result(path)
+
+
+def _film(arguments: argparse.Namespace, story: Storyboard, run: Run, shown: list[Caption]) -> list[Path]:
+    """Render the film of a storyboard with these captions."""
+    from dataclasses import replace
+
+    from ..progress import Reporter, say
+    from ..shot.settings import scene_file
+    from .film import Film
+    from .quality import QUALITIES
+
+    quality = QUALITIES[arguments.quality]
+    if arguments.size:
+        quality = replace(quality, resolution=arguments.size)
+    places = scene_file.read(story.scene).labels.file if story.scene else None
+    film = Film(story, run, quality, shown, places, arguments.overwrite)
+    return film.make(arguments.resume, Reporter(), say)
 
 
 def _storyboard(arguments: argparse.Namespace) -> Storyboard:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -24,7 +25,7 @@ _HEAD = """\
 # Storyboard of a film: `firetwin story` renders it again after each change; pictures that match stay.
 # Change the order of the [[shots]], their times, lengths (seconds), captions and cameras, or delete shots.
 # picture = "card" shows the caption alone, "map" the growth on a map, and "scene" the view of a camera.
-# Cameras: globe, flight, ground, overview, chase, flank, satellite, or a camera of the scene file.
+# Cameras: globe, flight, ground, above, overview, chase, flank, satellite, or a camera of the scene file.
 # Camera positions are in shots/NAME.toml; delete that file to fit them to changed times."""
 
 
@@ -39,7 +40,7 @@ def read(path: Path) -> Storyboard:
     with reading(path):
         text = read_text(path, "utf-8-sig", most=SETTINGS_BYTES)
     reader = TableReader(path, text, "story file")
-    story: Storyboard = reader.table(Storyboard, loads(path, text), ())
+    story: Storyboard = replace(reader.table(Storyboard, loads(path, text), ()), path=path)
     if invalid := validate(story):
         raise reader.error(*invalid)
     if not story.run.exists():

@@ -19,7 +19,7 @@ PICTURES = {
     MAP: "the burned area by time on the relief",
     SCENE: "rendered",
 }
-GLOBE, FLIGHT, GROUND = "globe", "flight", "ground"
+GLOBE, FLIGHT, GROUND, ABOVE = "globe", "flight", "ground", "above"
 """Cameras of stories; others come from auto framing and from the scene file."""
 
 
@@ -35,7 +35,7 @@ class StoryShot:
     picture: str = key(SCENE, "kind of its pictures", choices=PICTURES)
     camera: str = key(
         "",
-        "camera: globe, flight, ground, overview, chase, flank, satellite, or one of the scene file",
+        "camera: globe, flight, ground, above, overview, chase, flank, satellite, or one of the scene file",
     )
     place: str = key("", "place of the camera on the ground, by its name")
     render_pass: str = key("rgb", "pass of the pictures", choices=_film_passes)
