@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 _DETAIL = """\
 DIR/story.toml           storyboard: shots with reason, times, camera and caption
 DIR/story.srt, .vtt      captions
+DIR/story.json           report: reasons, sources, and each number of a caption with its model time
 DIR/shots/NAME           pictures of a shot; shots/NAME.toml is its scene file
 DIR/story.blend          project of Blender's Video Sequencer
 DIR/story.mp4            the film, which Blender renders from the project
@@ -56,9 +57,9 @@ def _run(arguments: argparse.Namespace) -> None:
     from .. import output
     from ..progress import result, say
     from ..run import readers
-    from . import captions, story_file, timeline
+    from . import captions, report, story_file, timeline
 
-    paths = [arguments.out / f"story.{suffix}" for suffix in ("srt", "vtt")]
+    paths = [arguments.out / f"story.{suffix}" for suffix in ("srt", "vtt", "json")]
     for path in paths:
         output.check(path, arguments.overwrite)
     story = _storyboard(arguments)
@@ -67,8 +68,9 @@ def _run(arguments: argparse.Namespace) -> None:
     spans, run = timeline.lay_out(story), readers.open(story.run)
     shown = captions.make(story, spans, run)
     say(f"{len(spans)} shots, {timeline.frames(spans) / story.fps:.0f} s")
-    for path, write in zip(paths, (captions.srt, captions.vtt), strict=True):
-        output.write_text(path, write(shown, story.fps), arguments.overwrite, newline="\n")
+    texts = captions.srt(shown, story.fps), captions.vtt(shown, story.fps), report.text(story, shown, run)
+    for path, text in zip(paths, texts, strict=True):
+        output.write_text(path, text, arguments.overwrite, newline="\n")
     paths.insert(0, arguments.out / story_file.NAME)
     if not arguments.storyboard:
         paths += _film(arguments, story, run, shown)

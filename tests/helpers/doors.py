@@ -378,7 +378,9 @@ DOORS = {
     "score": Door("score run --report out/score.html", ("out/score.html",), _score),
     "stations exercise": Door("stations exercise run --out out/x.gpkg", ("out/x.gpkg",), _run),
     "stations import": Door("stations import stations.csv --out out/x.gpkg", ("out/x.gpkg",), _stations),
-    "story": Door("story run --out out --storyboard", ("out/story.srt", "out/story.vtt"), _run),
+    "story": Door(
+        "story run --out out --storyboard", ("out/story.srt", "out/story.vtt", "out/story.json"), _run
+    ),
     "tiles make": Door("tiles make scene.toml --out out", ("out/terrain/0.glb", "out/tileset.json"), _tiles),
     "track": Door("track scene.toml --out out/drone.gpx", ("out/drone.gpx",), _scene),
     "watch": Door("watch model --out out", ("out/times.json", "out/status.json", "out/index.html"), _watch),

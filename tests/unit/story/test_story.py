@@ -1,5 +1,6 @@
 """Stories: shots that the run can give, an editable storyboard, and captions with the run's numbers."""
 
+import json
 import re
 from datetime import UTC, datetime, timedelta
 from itertools import pairwise
@@ -145,6 +146,10 @@ def test_each_number_of_the_captions_is_the_run_s(story_of, tmp_path):
         areas.append(area)
     assert len({*areas}) > 10
     assert max(areas) > 10.0 * areas[0]
+    report = json.loads((out / "story.json").read_text())
+    assert [each["burned_area_m2"] for each in report["captions"]] == pytest.approx(areas, abs=0.1)
+    assert report["area"]["field"] == "fuel_arrival_time"
+    assert {each["text"].splitlines()[-1] for each in report["captions"]} <= {*lines}
     assert (out / "story.vtt").read_text().count(" --> ") == sum(" --> " in line for line in lines)
 
 
