@@ -93,7 +93,7 @@ def _filled(story: Storyboard, run: Run, caption: Caption, area: float) -> Capti
     """Add the facts to a caption: clocks, speed and area (m2)."""
     assert caption.moment
     parts = [
-        _clocks(caption.moment, story.zone or "UTC"),
+        clocks(caption.moment, story.zone or "UTC"),
         speed_text(caption.span.shot.speed),
         f"{measure.area(area, cast(Units, story.units))} burned",
     ]
@@ -104,7 +104,7 @@ def _filled(story: Storyboard, run: Run, caption: Caption, area: float) -> Capti
     )
 
 
-def _clocks(moment: datetime, zone: str) -> str:
+def clocks(moment: datetime, zone: str) -> str:
     """Format local time and UTC: ``17 Sep 2014 19:00:02 PDT (18 Sep 02:00:02 UTC)``."""
     local, utc = (times.text(moment, each, moment.second > 0) for each in (zone, "UTC"))
     day, month, year, *clock = utc.split(" ")

@@ -48,6 +48,13 @@ def _add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--resume", action="store_true", help="keep finished pictures whose inputs have not changed"
     )
+    parser.add_argument(
+        "--for",
+        dest="purpose",
+        choices=("briefing", "training"),
+        default="briefing",
+        help="training: the growth pauses at decisions, and DIR/instructor.html has the answers (briefing)",
+    )
     parser.add_argument("--units", choices=("us", "metric"), default="us", help="units of captions (us)")
     add_overwrite(parser)
 
@@ -57,7 +64,7 @@ def _run(arguments: argparse.Namespace) -> None:
     from .. import output
     from ..progress import result, say
     from ..run import readers
-    from . import captions, report, story_file, timeline
+    from . import captions, report, story_file, timeline, training
 
     paths = [arguments.out / f"story.{suffix}" for suffix in ("srt", "vtt", "json")]
     for path in paths:
@@ -71,6 +78,9 @@ def _run(arguments: argparse.Namespace) -> None:
     texts = captions.srt(shown, story.fps), captions.vtt(shown, story.fps), report.text(story, shown, run)
     for path, text in zip(paths, texts, strict=True):
         output.write_text(path, text, arguments.overwrite, newline="\n")
+    if any(shot.name.startswith(training.QUESTION) for shot in story.shots):
+        paths.append(arguments.out / "instructor.html")
+        output.write_text(paths[-1], training.sheet(story, spans, run), arguments.overwrite)
     paths.insert(0, arguments.out / story_file.NAME)
     if not arguments.storyboard:
         paths += _film(arguments, story, run, shown)
@@ -99,10 +109,10 @@ def _storyboard(arguments: argparse.Namespace) -> Storyboard:
     """Read the storyboard of the folder; without one, choose and write it."""
     from .. import output
     from ..progress import say
-    from ..run import readers
+    from ..run import labels, readers
     from ..run.readers import folder
     from ..shot.settings import scene_file
-    from . import choose, story_file
+    from . import choose, story_file, training
 
     path = arguments.out / story_file.NAME
     if path.exists() and not arguments.overwrite:
@@ -115,7 +125,10 @@ def _storyboard(arguments: argparse.Namespace) -> Storyboard:
     else:
         settings = scene_file.read(scene)
         run_folder, place = settings.run, settings.labels.file
-    story = choose.choose(readers.open(run_folder), path, scene, place, arguments.units)
+    run = readers.open(run_folder)
+    story = choose.choose(run, path, scene, place, arguments.units)
+    if arguments.purpose == "training":
+        story = training.with_decisions(story, run, labels.find(run, place))
     output.write_text(path, story_file.text(story), arguments.overwrite, newline="\n")
     return story
 
