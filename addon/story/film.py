@@ -47,7 +47,7 @@ class Film:
     places
         File of named places; None: the places of the run's fire.
     overwrite
-        Replace a film that is not Firetwin's.
+        Replace a film that is not Firetwin's, and fit all cameras again.
     """
 
     story: Storyboard
@@ -94,7 +94,7 @@ class Film:
         if shot.picture == MAP:
             self._maps(span, resume, progress, tell)
             return
-        scenes = Scenes(self.story, self.run, self.quality)
+        scenes = Scenes(self.story, self.run, self.quality, self.overwrite)
         scenes.write(span)
         asked = render.RenderRequest(
             self.out / FOLDER / shot.name, passes=shot.render_pass, resume=resume, films=False

@@ -1,6 +1,7 @@
 """Scene files of a story's shots, which the render job renders: shots/NAME.toml, with one camera each.
 
-A scene file that is there keeps its settings and its camera; times and quality follow the storyboard.
+A scene file that is there keeps its settings and its camera, unless the storyboard names another camera.
+Times and quality follow the storyboard.
 """
 
 from __future__ import annotations
@@ -47,11 +48,18 @@ _ASKED = (
 
 @dataclass(frozen=True)
 class Scenes:
-    """Scene files of the shots of a story."""
+    """Scene files of the shots of a story.
+
+    Attributes
+    ----------
+    fit_again
+        Fit cameras again, also of scene files that are there.
+    """
 
     story: Storyboard
     run: Run
     quality: Quality
+    fit_again: bool = False
 
     def path(self, shot: StoryShot) -> Path:
         """Return the path of a shot's scene file."""
@@ -66,8 +74,9 @@ class Scenes:
             A place or camera of the shot is unknown, or the file cannot be written.
         """
         path = self.path(span.shot)
-        if path.is_file():
-            settings = self._with_times(scene_file.read(path), span)
+        there = scene_file.read(path) if path.is_file() and not self.fit_again else None
+        if there is not None and [camera.name for camera in there.cameras] == [span.shot.camera]:
+            settings = self._with_times(there, span)
             text = toml_update.updated(path.read_text(encoding="utf-8"), settings)
         else:
             settings = self._with_times(replace(self._scene(span.shot), path=path), span)

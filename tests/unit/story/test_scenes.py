@@ -114,6 +114,19 @@ def test_an_edited_scene_file_keeps_its_camera_and_takes_new_times(story):
     assert settings.time.start == moved.shot.start
 
 
+def test_another_camera_in_the_storyboard_is_fitted(story):
+    shot_scenes, spans = story
+    span = spans["active"]
+    shot_scenes.write(span)
+    path = shot_scenes.path(span.shot)
+    other = replace(span, shot=replace(span.shot, camera="overview"))
+    assert [camera.name for camera in shot_scenes.write(other).cameras] == ["overview"]
+    path.write_text(path.read_text().replace("focal_length = 28.0", "focal_length = 50.0"))
+    assert shot_scenes.write(other).cameras[0].rig.focal_length == 50.0
+    again = replace(shot_scenes, fit_again=True)
+    assert again.write(other).cameras[0].rig.focal_length == 28.0
+
+
 def test_unknown_cameras_are_explained(story):
     shot_scenes, spans = story
     shot = replace(spans["active"].shot, camera="crane", name="other")
