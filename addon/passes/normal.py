@@ -1,7 +1,8 @@
 """Normal pass: surface normals of terrain and trees, unit vectors x east, y north, z up in the scene's frame.
 
-Flames and smoke are excluded, as they have no surface. One ray goes through each pixel's centre. The sky is
-0. It is the mesh normal, without bump maps of materials.
+Flames and smoke are excluded, as they have no surface; firebrands are not. One ray goes through each pixel's
+centre, as in `masks`, which shares its rays. The sky is 0. It is the mesh normal, without bump maps of
+materials.
 
 Normals are not averaged over the pixel. In foliage, whose leaves are smaller than a pixel, neighbouring
 pixels have unrelated normals, and these change from frame to frame as the camera moves: relighting by them
@@ -24,5 +25,5 @@ PASS = RenderedPass(
     samples=1,
     channels="colour",
     pixel_centres=True,
-    aspects=SURFACES,
+    aspects=SURFACES | {"fire"},
 )

@@ -42,6 +42,8 @@ _OUTLINE = 640  # columns of a picture whose detail of flames is enough to find 
 _CLOSE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share of the picture
 
 Array = NDArray[np.float32]
+Flames = tuple[FlameVolume | None, FlameVolume | None]
+FlamesOf = Callable[[int], Flames]
 
 
 class IntegratedRenderer:
@@ -77,12 +79,13 @@ class IntegratedRenderer:
         if self.shadow and "rgb" in pictures:
             self.shadow.cast(self.stage, smoke)
         shared = [each for each in _shared() if each.name in pictures]
+        flames = functools.cache(self._flames)  # for this frame alone: they take memory
         if shared:
-            self._render_shared_rays(shared, marched, pictures, smoke, part)
+            self._render_shared_rays(shared, marched, pictures, smoke, flames, part)
         done = {each.name for each in (*shared, *marched)}
         others = [picture for name, picture in pictures.items() if name not in done]
         if others:
-            self._render_centre_rays(others, smoke, part)
+            self._render_centre_rays(others, smoke, flames, part)
 
     def _render_shared_rays(
         self,
@@ -90,13 +93,14 @@ class IntegratedRenderer:
         marched: list[passes.MarchedPass],
         pictures: dict[str, Picture],
         smoke: Sequence[volume.Bricks],
+        flames_of: FlamesOf,
         part: Path,
     ) -> None:
         """Render passes that share rays in the layer of the first one, and marched passes by them."""
         first = shared[0].name
         frame = pictures[first].frame
         infrared = any(each.shading == "radiance" and not each.geometry_only for each in shared)
-        flames, outline = self._flames(frame)
+        flames, outline = flames_of(frame)
         distance = self._measure_flames(outline) if "rgb" in pictures else None
         with self.cost.part(frame_cost.SURFACES):
             rendered = surfaces.render(self.scene, [first], part, infrared=infrared)
@@ -128,7 +132,7 @@ class IntegratedRenderer:
                 halves = [passes.modules()[name].march(eye, frame) for eye in eyes]
             self._write(part, pictures[name], np.concatenate(halves))
 
-    def _flames(self, frame: int) -> tuple[FlameVolume | None, FlameVolume | None]:
+    def _flames(self, frame: int) -> Flames:
         """Return the flames of a frame that are drawn as a volume, and the same with detail for outlines."""
         (view,) = self.shot.paths
         with self.cost.part(frame_cost.MARCH):
@@ -195,19 +199,22 @@ class IntegratedRenderer:
         ]
 
     def _render_centre_rays(
-        self, pictures: list[Picture], smoke: Sequence[volume.Bricks], part: Path
+        self, pictures: list[Picture], smoke: Sequence[volume.Bricks], flames_of: FlamesOf, part: Path
     ) -> None:
-        """Render passes whose rays all go through pixel centres."""
+        """Render passes whose rays all go through pixel centres; geometry is seen by the rays of classes."""
+        drawn_by = {picture.name: _centre_layer(picture.name) for picture in pictures}
+        for name in (name for name, other in drawn_by.items() if name != other):
+            layer = layers.find_layer(self.scene, drawn_by[name])
+            setattr(layer, layers.rendered(name).layer_property, True)
         with self.cost.part(frame_cost.SURFACES):
-            eyes = surfaces.render(self.scene, [each.name for each in pictures], part, centres=True)
+            eyes = surfaces.render(self.scene, set(drawn_by.values()), part, centres=True)
         for picture in pictures:
             socket, halves = layers.rendered(picture.name).socket, []
             march = getattr(passes.modules()[picture.name], "march", None)
             for number, found in eyes:
-                channels = found[picture.name]
+                channels = found[drawn_by[picture.name]]
                 if march:
-                    flames = self._flames(picture.frame)
-                    eye = Eye(self.shot, self.stage, channels, number, smoke, *flames)
+                    eye = Eye(self.shot, self.stage, channels, number, smoke, *flames_of(picture.frame))
                     halves.append(march(eye, picture.frame))
                 else:
                     halves.append(channels["Combined" if socket == "Image" else socket])
@@ -303,6 +310,14 @@ def _prepare(scene: bpy.types.Scene) -> None:
     groups = layers.find_layer(scene, "rgb").lightgroups
     if nodes.FIRE not in {group.name for group in groups}:
         groups.add(name=nodes.FIRE)
+
+
+def _centre_layer(name: str) -> str:
+    """Return the pass in whose layer a pass of pixel centres is rendered: `masks`, if it shows geometry."""
+    each = layers.rendered(name)
+    if each.socket == "Image" or not each.pixel_centres:
+        return name
+    return next(other.name for other in layers.rendered_passes() if passes.records_masks(other))
 
 
 def _shared() -> list[passes.RenderedPass]:

@@ -116,7 +116,12 @@ def test_a_pass_is_the_same_whatever_is_made_with_it(film):
 
 
 def test_coarse_outlines_find_the_pixels_that_show_flames(film, monkeypatch):
+    built, build = [], integrated.flame_volume.build
+    monkeypatch.setattr(
+        integrated.flame_volume, "build", lambda *how, **more: built.append(more) or build(*how, **more)
+    )
     fine = film("thermal", "masks")
+    assert len(built) == 1, "both passes show the same flames"
     monkeypatch.setattr(integrated, "_OUTLINE", 32)
     coarse = film("masks", "thermal")
     assert (fine["masks"][..., 0] == masks_pass.FIRE).any()
