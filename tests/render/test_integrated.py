@@ -115,6 +115,13 @@ def test_a_pass_is_the_same_whatever_is_made_with_it(film):
         assert np.array_equal(film(name)[name], together[name])
 
 
+def test_geometry_is_seen_by_the_rays_of_classes():
+    assert {name: integrated._centre_layer(name) for name in ("normal", "masks")} == {
+        "normal": "masks",
+        "masks": "masks",
+    }
+
+
 def test_coarse_outlines_find_the_pixels_that_show_flames(film, monkeypatch):
     built, build = [], integrated.flame_volume.build
     monkeypatch.setattr(
