@@ -56,14 +56,14 @@ def rests(folder: Path, pattern: str) -> list[str]:
     """
     in_use = []
     with contextlib.suppress(OSError):
-        for each in folder.iterdir():
-            part = re.fullmatch(rf"\.(?P<name>{pattern})\.[0-9a-f]{{12}}\.part", each.name)
-            if part and each.is_dir() and not each.is_symlink():
+        for name in os.listdir(folder):  # faster than iterdir, for folders of many files
+            part = name.endswith(".part") and re.fullmatch(rf"\.({pattern})\.[0-9a-f]{{12}}\.part", name)
+            if part and (each := folder / name).is_dir() and not each.is_symlink():
                 with locked(each) as is_alone:
                     if is_alone:
                         shutil.rmtree(each, ignore_errors=True)
                     else:
-                        in_use.append(part["name"])
+                        in_use.append(part[1])
     return in_use
 
 
