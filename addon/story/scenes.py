@@ -28,6 +28,7 @@ from ..shot.frames import TIME_LAPSE
 from ..shot.sections import Time
 from ..shot.settings import Camera, Settings, scene_file, toml_update, toml_writer
 from ..shot.shot import Shot
+from . import timeline
 from .quality import Quality
 from .storyboard import ABOVE, FLIGHT, GLOBE, GROUND, SCENE, Storyboard, StoryShot
 from .timeline import Span
@@ -148,7 +149,11 @@ class Scenes:
         fitted = self._fitted(ahead)
         overview = _rig(fitted, replace(shot, camera="overview"), self.story.path)
         camera = next((each for each in fitted.cameras if each.name == ahead.camera), fitted.cameras[0])
-        filmed = Shot(replace(fitted, cameras=(camera,)), self.run)
+        span = next(each for each in timeline.lay_out(self.story) if each.shot.name == ahead.name)
+        # A chase depends on the number of pictures, over which it is smoothed.
+        filmed = Shot(
+            self._with_times(replace(fitted, cameras=(camera,)), replace(span, shot=ahead)), self.run
+        )
         view = camera.rig.path(camera, filmed.filming, filmed.bare_ground)
         (latitude, longitude, _), (aim_latitude, aim_longitude, _) = (
             tuple(float(each[0]) for each in local_frame(self.run).reverse(at[:1]))

@@ -160,12 +160,13 @@ def _dissolve(
 
 def _texts(project: Project) -> Iterator[tuple[str, int, int, int, _Text]]:
     """Yield name, channel, first and last frame, and text of each text strip."""
-    for reel in project.reels:
+    dissolved = [0, *(reel.span.overlap for reel in project.reels)]
+    for reel, before in zip(project.reels, dissolved, strict=False):
         span = reel.span
         own = [each for each in project.captions if each.span == span]
         if span.shot.picture == CARD:
             card = _Text(span.shot.caption, 0.05, (0.5, 0.5), "CENTER", "CENTER", plate=False)
-            yield f"{span.shot.name} text", _WORDS, span.first, span.free, card
+            yield f"{span.shot.name} text", _WORDS, span.first + before, span.free, card
             continue
         if span.shot.caption:
             words = _Text(span.shot.caption, 0.06, (_SAFE, _SAFE + 0.135))

@@ -70,6 +70,7 @@ def main(out: Path, folder: Path) -> None:
         "cameras": draw_sheet([sight, far, masks, above]),
         "thermal": open_picture(drone / "thermal/drone_thermal_000030.png"),
         "satellite": above,
+        "story": open_picture(max((out / "story/shots/growth/map").glob("*.png"))),
         "maps": open_picture(out / "maps/intensity.png"),
     }
     for name, picture in small.items():

@@ -95,6 +95,15 @@ def test_each_shot_text_and_dissolve_has_a_strip(cut, project):
     assert cut.sequence_editor.strips["title text"].text == "A fire"
 
 
+def test_the_text_of_a_card_follows_the_dissolve_into_it(scene, project):
+    shots = tuple(replace(project.reels[0].span.shot, name=name) for name in ("title", "end"))
+    reels = tuple(map(_reel, timeline.lay_out(Storyboard(shots=shots))))
+    sequencer.set_up(scene)
+    sequencer.lay_out(scene, replace(project, reels=reels, captions=()))
+    assert _places(scene)["end"] == (2, 13, 37)
+    assert _places(scene)["end text"] == (4, 25, 37)
+
+
 def test_a_still_is_moved_over(cut):
     above, scales = cut.sequence_editor.strips["above"], []
     for frame in (49, 97):

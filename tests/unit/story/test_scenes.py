@@ -10,6 +10,7 @@ from firetwin.run import readers, times
 from firetwin.run.frame import local_frame
 from firetwin.shot import run_checks
 from firetwin.shot.cameras.rigs._key import CameraKey
+from firetwin.shot.cameras.rigs.chase import Chase
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.settings import Camera, scene_file
 from firetwin.shot.shot import Shot
@@ -24,14 +25,12 @@ SCENE_FILE = 'run = "../run"\nlabels = { file = "../places.csv" }\n'
 
 @pytest.fixture
 def story(tmp_path, monkeypatch):
-    """Scenes of a run with a place, whose fitted cameras are two drones."""
+    """Scenes of a run with a place, whose fitted cameras are a drone and a chase."""
 
     def fit(run, settings):
-        over, near = (
-            Drone(keys=(CameraKey(0.0, 38.9, -120.6 - away, 1e5 * away, "point", 38.9, -120.6),))
-            for away in (0.02, 0.004)
-        )
-        return replace(settings, cameras=(Camera("overview", rig=over), Camera("chase", rig=near)))
+        over = Drone(keys=(CameraKey(0.0, 38.9, -120.62, 2000.0, "point", 38.9, -120.6),))
+        rigs = {"overview": over, "chase": Chase(distance=400.0, height=300.0)}
+        return replace(settings, cameras=tuple(Camera(name, rig=rig) for name, rig in rigs.items()))
 
     monkeypatch.setattr(scenes, "_fit", fit)
     run = readers.open(whole_run.write(tmp_path / "run", cells=32))
