@@ -198,7 +198,7 @@ def _sample(patch: Patch) -> None:
 
     patch.setattr(sample, "MODEL_CELLS", 2)
     patch.setattr(sample.members, "sample_of", lambda _: None)
-    patch.setattr(sample, "_static", lambda _: {"latitude": np.zeros(2)})
+    patch.setattr(sample, "_static", lambda *_: {"latitude": np.zeros(2)})
     patch.setattr(
         sample, "frames_of", lambda _, minutes: (tuple(np.zeros((4, 2, 2), np.float32)) for _ in minutes)
     )
