@@ -20,4 +20,9 @@ _LIGHT = 13.0  # radiance of flames at exposure 0
 def brightness(shot: Shot) -> float:
     """Return the radiance of flames: lower in longer exposures, which limits clipping (smaller aperture)."""
     stops = exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0]
+    return brightness_at(float(stops))
+
+
+def brightness_at(stops: float) -> float:
+    """Return the radiance of flames at an exposure (stops)."""
     return float(_LIGHT * 2.0 ** (-0.85 * stops))

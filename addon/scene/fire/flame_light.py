@@ -16,11 +16,11 @@ from firetwin_core import constants
 from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
 from ...shot.fire.flame_size import flame_length
+from ...shot.light import exposure
 from ...shot.shot import Shot
 from .. import clock
 from ..forest.stand import Stand
-from ..glow import brightness
-from . import flames
+from . import flame_volume, flames, lamps
 from .flame_volume import RADIATED
 
 REACH = 250.0, 400.0  # m from the camera of a frame, distances between which these lights give way to lamps
@@ -29,7 +29,8 @@ LIGHT = 2.0e-2
 """W of the scene's light per radiated W of thin flames; by eye, as bright as drawn flames are.
 It is 5e-5 for flames of 18 m with 15,000 cd/m2, half of them gaps, and a radiosity of 61 kW/m2, if a
 luminance of 1 is 16,000 cd/m2; 4e-4 for flames of 2 to 5 m."""
-THICK = 0.8  # radiance of thick flames over the radiance of drawn flames, for some gaps
+THICK = 4.0, 2.2  # red radiance of thick flames over the luminance of drawn cores, by day and by night
+"""By eye; that of drawn flames is 1.1, as their mean luminance is half of the core's."""
 COLOUR = (1.0, 0.36, 0.06)
 LAYOUT = flames.Layout(((REACH[1], 4.0),), gaps=False)
 """Denser than billboards, without gaps: surfaces near the front are lit evenly along it."""
@@ -67,6 +68,11 @@ def build(shot: Shot, grown: Stand | None, collection: bpy.types.Collection) -> 
     _show_to_lighting_only(obj)
     obj.hide_viewport = True
     return obj
+
+
+def thick_radiance(stops: float, dark: float) -> float:
+    """Return the red radiance of thick flames at an exposure (stops) and a darkness (0 to 1)."""
+    return flame_volume.core_luminance(stops) * (THICK[0] + (THICK[1] - THICK[0]) * dark)
 
 
 def _show_to_lighting_only(obj: bpy.types.Object) -> None:
@@ -118,7 +124,8 @@ def _node_group(shot: Shot, card: bpy.types.Object) -> bpy.types.NodeTree:
     eye = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location", transform_space="ORIGINAL")
     distance = tree.vector("DISTANCE", eye, tree.output("GeometryNodeInputPosition"), name="Value")
     power = named("power") * size * flicker * distance.smoothstep(REACH[1], REACH[0])
-    thick = THICK * brightness(shot)
+    stops = exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0]
+    thick = thick_radiance(float(stops), float(lamps.darkness(shot, np.array([shot.frames.middle]))[0]))
     radiance = power / (width * height * (4.0 * np.pi))
     radiance = thick * (1.0 - (radiance * (-1.0 / thick)).exp())
     east, north = shot.wind

@@ -8,6 +8,7 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import flame_field
+from .. import glow as fire_glow
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME
 from . import burning_wood
 from .shading_inputs import GroundInputs
@@ -46,6 +47,7 @@ _COAL = (1.0, 0.17, 0.012)  # colour of embers there: with less green, AgX shows
 _FRESH = 240.0, 2.0, 0.35
 """s, decay time of the light of fresh coals of timber, to 1/e, before ash covers them (assumed); factors on
 the light of coals when fresh and later (by eye)."""
+_LONG = 1.0  # stops, exposure from which coals and the ground beneath flames near the camera shine less
 _WOOD_LIGHT = 2.5  # radiance of burning stumps and logs at exposure 0 (by eye)
 _GLOWING = 0.05
 """Area fraction of glowing coals in a patch of embers (assumed): at 850 K they radiate 1.5 kW/m2."""
@@ -186,7 +188,10 @@ def fire_emission(
     beyond = flame_field.share(tree, stage)
     ember = tree.mix_colour(beyond, _COAL, ember)
     fresh = (tree.math("MAXIMUM", place.age, 0.0) * (-_TIMBER / _FRESH[0]) / place.residence).exp()
-    coals = place.pixel.ramp(*_COALS, *_COAL_LIGHT) * fresh.ramp(0.0, 1.0, _FRESH[2], _FRESH[1])
+    dim = min(
+        fire_glow.brightness(shot) / fire_glow.brightness_at(_LONG), 1.0
+    )  # so that long exposures do not burn out
+    coals = place.pixel.ramp(*_COALS, *_COAL_LIGHT) * fresh.ramp(0.0, 1.0, _FRESH[2] * dim, _FRESH[1] * dim)
     embers = embers * glowing * tree.mix(beyond, coals, 1.0)
     wood = burning_wood.glow(tree, place) * tree.input(
         "Wood Brightness",
@@ -195,7 +200,7 @@ def fire_emission(
         "Fire",
     )
     flames = flaming * bright * place.woody.ramp(0.0, 1.0, _PALE, 1.0)
-    flames = flames * place.distance.ramp(*CLOSE, _DIMMED, 1.0)
+    flames = flames * place.distance.ramp(*CLOSE, _DIMMED, 1.0) * tree.mix(beyond, dim, 1.0)
     power = flames + embers + wood
     some = power + 1.0e-4
     colour = tree.mix_colour(flames / some, tree.mix_colour(wood / some, ember, burning_wood.COLOUR), flame)

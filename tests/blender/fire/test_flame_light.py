@@ -6,9 +6,9 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import owned
-from firetwin.scene import glow
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import flame_light, flame_volume, flames, lamps
+from firetwin.shot.light import exposure
 from firetwin.shot.sections import Light
 from firetwin.shot.shot import Shot
 from firetwin.shot.terrain import noise
@@ -58,7 +58,8 @@ def lit(amid, run, stage, scene):
 
 
 def test_cards_stand_at_burning_flames_and_emit_their_share_of_heat(lit, scene):
-    thick = flame_light.THICK * glow.brightness(lit)
+    stops = exposure.at(lit, np.array([0.5 * (1 + FRAMES)]))[0]
+    thick = flame_light.thick_radiance(stops, 0.0)
     shot, points = lit, flames.front_flames(lit, None, flame_light.LAYOUT)
     away = np.linalg.norm(points.position - shot.paths[0].position[0], axis=1)
     share = 1.0 - noise.smoothstep(*flame_light.REACH, away)
