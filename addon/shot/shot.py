@@ -26,7 +26,7 @@ from .cameras.mesh_error import error_bounds
 from .cameras.path import SENSOR, Path
 from .cameras.rigs import Filming
 from .cameras.visibility import Visibility
-from .fire import air_temperature, flame_depth, smoke_scale
+from .fire import air_temperature, flame_depth, flame_state, smoke_scale
 from .fire.fire import Fire
 from .fire.fuel import DETAIL
 from .fire.smoke_scale import Scale
@@ -270,6 +270,11 @@ class Shot:
     def front(self) -> flame_depth.FrontFields:
         """Fire front properties (rate of spread, residence time) on the terrain grid."""
         return flame_depth.FrontFields(self.bare_ground, self.run)
+
+    @cached_property
+    def flame_length(self) -> NDArray[np.float64]:
+        """Mean flame length (ny, nx), m, on the terrain grid, as if the front were there."""
+        return flame_state.mean_length(self)
 
     @cached_property
     def front_scale(self) -> float:

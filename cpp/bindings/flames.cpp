@@ -31,13 +31,17 @@ constexpr py::ssize_t patch_nodes = flames::patch_side + 1;
 
 std::shared_ptr<FlameBlock> make_block(const py::object& codes, const py::object& rise, double cell,
                                        double front, double interval, int fade, double wind,
-                                       bool periodic) {
+                                       bool periodic, bool soft) {
   const auto stored = to_array<std::uint8_t>(codes, "codes", {-1, -1, -1, -1});
   const auto speeds = to_array<float>(rise, "rise", {stored.shape(1)});
   const FlameBlock::Shape shape{stored.shape(0), stored.shape(1), stored.shape(2), stored.shape(3)};
-  const BlockScale scale{static_cast<float>(cell),     static_cast<float>(front),
-                         static_cast<float>(interval), fade,
-                         static_cast<float>(wind),     periodic};
+  const BlockScale scale{static_cast<float>(cell),
+                         static_cast<float>(front),
+                         static_cast<float>(interval),
+                         fade,
+                         static_cast<float>(wind),
+                         periodic,
+                         soft};
   return std::make_shared<FlameBlock>(view(stored), shape, scale, view(speeds));
 }
 
@@ -98,7 +102,7 @@ void init_flames(Module module) {
   module.attr("LUMINANCE_DECADES") = py::make_tuple(flames::dim_decades, flames::bright_decades);
   Class<FlameBlock, std::shared_ptr<FlameBlock>>(module, "FlameBlock")
       .def(py::init(&make_block), "codes"_a, "rise"_a, py::kw_only(), "cell"_a, "front"_a,
-           "interval"_a, "fade"_a, "wind"_a, "periodic"_a);
+           "interval"_a, "fade"_a, "wind"_a, "periodic"_a, "soft"_a = false);
   Class<FlameLibrary, std::shared_ptr<FlameLibrary>>(module, "FlameLibrary")
       .def(py::init(&make_library), "lines"_a, "crowns"_a);
   Class<FlameShape>(module, "FlameShape")

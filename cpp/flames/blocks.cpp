@@ -14,7 +14,7 @@
 namespace firetwin::flames {
 namespace {
 
-constexpr float seen_light = 0.84F; // of a coarse cell: its hot gas is behind cooler gas (measured)
+constexpr float seen_light = 0.76F; // of a coarse cell: its hot gas is behind cooler gas (measured)
 constexpr float full = 255.0F;
 constexpr float most_cells = 1.0e6F; // height that an index can hold; nothing burns there
 constexpr std::int64_t cube = 8; // cells along a side, which are skipped at once if nothing burns
@@ -152,7 +152,42 @@ FlameBlock::FlameBlock(std::span<const std::uint8_t> codes, const Shape& shape,
   for (const float speed : rise) {
     rise_.push_back(speed * scale.interval / scale.cell);
   }
+  if (scale.soft) {
+    soften();
+  }
   mark_burning();
+}
+
+/// Sheets are as thin as a cell. Where wind shears them, linear interpolation shows them as stairs.
+void FlameBlock::soften() {
+  const auto [frames, up, along, across] = shape_;
+  const auto plane = static_cast<std::size_t>(along * across);
+  const auto mean = [](std::uint8_t low, std::uint8_t at, std::uint8_t high) {
+    return static_cast<std::uint8_t>((low + 2 * at + high + 2) / 4);
+  };
+  tbb::parallel_for(
+      std::int64_t{0}, frames, [&, up = up, along = along, across = across](std::int64_t frame) {
+        std::uint8_t* first = codes_.data() + static_cast<std::size_t>(frame * up) * plane;
+        for (std::int64_t n = 0; n < up * along; ++n) {
+          std::uint8_t* row = first + n * across;
+          std::uint8_t before = row[0];
+          for (std::int64_t i = 0; i < across; ++i) {
+            const std::uint8_t at = row[i];
+            row[i] = mean(before, at, row[std::min(i + 1, across - 1)]);
+            before = at;
+          }
+        }
+        std::vector<std::uint8_t> below(first, first + plane), at(plane);
+        for (std::int64_t k = 0; k < up; ++k) {
+          std::uint8_t* level = first + static_cast<std::size_t>(k) * plane;
+          const std::uint8_t* above = k + 1 < up ? level + plane : level;
+          std::copy(level, level + plane, at.begin());
+          for (std::size_t n = 0; n < plane; ++n) {
+            level[n] = mean(below[n], at[n], above[n]);
+          }
+          std::swap(below, at);
+        }
+      });
 }
 
 void FlameBlock::mark_burning() {

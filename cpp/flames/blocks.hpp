@@ -21,6 +21,7 @@ struct BlockScale {
   int fade;       ///< number of last frames that fade into the first ones
   float wind;     ///< wind across the front, over sqrt(g L)
   bool periodic;  ///< along the front; else nothing burns beyond the sides
+  bool soft;      ///< mean of three cells, weights 1 2 1, up and across
 };
 
 /// Eight places in a block, in flame lengths: across and along the front from the first cell's
@@ -80,6 +81,7 @@ private:
   using Parts = std::array<Part, 2>;
 
   Parts parts_at(float time) const;
+  void soften();
   void mark_burning();
   bool burns(std::int64_t frame, const Lanes& x, const Lanes& y, const Lanes& z) const;
   void rise_at(const Lanes& up, Lanes& cells) const;

@@ -13,6 +13,9 @@
 namespace firetwin::flames {
 namespace {
 
+constexpr float most_shear =
+    0.5F;                         // m/m by wind: thin sheets show the block's cells beyond (by eye)
+constexpr float slow = 2.0F;      // m, height below which gas may be as slow as at the ground
 constexpr float shortest = 0.05F; // m, length of flames that are drawn
 constexpr float overlap = 0.8F;   // part of a segment from which the next one fades in
 constexpr std::array<float, 2> octave_blend{0.4F, 0.6F}; // octaves between rounded lengths
@@ -222,23 +225,30 @@ FlameField::FlameField(const FlameTiles& tiles, const FlameCrowns& crowns,
                        const FlameLibrary& library, const FlameShape& shape, const Vector& origin,
                        double time)
     : tiles_(tiles), crowns_(crowns), library_(library), shape_(shape), origin_(origin),
-      time_(time) {}
+      time_(time) {
+  shape_.launch =
+      std::max(shape_.launch, lean * std::hypot(shape.wind[0], shape.wind[1]) / most_shear);
+}
+
+float FlameField::foot_speed(float height, const std::array<float, 3>& direction) const {
+  const float across = std::hypot(direction[0], direction[1]), along = std::abs(direction[2]);
+  // The foot moves no faster than this within half the height, and leans anything from nothing to
+  // all of the wind.
+  const auto launch = static_cast<float>(shape_.launch),
+             lift = static_cast<float>(shape_.acceleration);
+  const float wind = lean * static_cast<float>(std::hypot(shape_.wind[0], shape_.wind[1]));
+  const float speed_up = height > slow ? std::sqrt(launch * launch + lift * height) : launch;
+  return across + wind / speed_up * (along + 0.5F * across);
+}
 
 float FlameField::free_distance(const std::array<float, 3>& place,
                                 const std::array<float, 3>& direction) const {
-  constexpr float slow = 2.0F; // m, height below which gas may be as slow as at the ground
   const auto [x, y, z] = place;
   const float across = std::hypot(direction[0], direction[1]), along = std::abs(direction[2]);
   const auto wind_x = lean * static_cast<float>(shape_.wind[0]),
              wind_y = lean * static_cast<float>(shape_.wind[1]);
   const float height = std::clamp(z - tiles_.ground_at(x, y), 0.0F, 1.0e6F);
-  const auto launch = static_cast<float>(shape_.launch),
-             lift = static_cast<float>(shape_.acceleration);
-  // The foot moves no faster than this within half the height, and leans anything from nothing to
-  // all of the wind.
-  const float speed_up = height > slow ? std::sqrt(launch * launch + lift * height) : launch;
-  const float wind = std::hypot(wind_x, wind_y);
-  const float speed = across + wind / speed_up * (along + 0.5F * across);
+  const float wind = std::hypot(wind_x, wind_y), speed = foot_speed(height, direction);
   const float away = shape_.flight_to(height);
   float longest = 0.0F, edge = std::numeric_limits<float>::max();
   constexpr int parts = 2; // places between the foot of upright and of leaning flames
@@ -297,9 +307,9 @@ void FlameField::find_foot(const Lanes& x, const Lanes& y, const Lanes& height,
   const Lanes east = node[east_channel], north = node[north_channel];
   Lanes across = wind_x * east + wind_y * north, speed, flight;
   across = across < 0.0F ? Lanes{} : across;
-  Lanes length = node[length_channel];
-  length = length < shortest ? Lanes{} + shortest : length;
-  roots(g * length, speed);
+  Lanes scale = node[scale_channel];
+  scale = scale < shortest ? Lanes{} + shortest : scale;
+  roots(g * scale, speed);
   const Lanes froude = across / speed;
   const auto lines = library_.lines();
   out.shares = {};
@@ -333,10 +343,12 @@ void FlameField::find_foot(const Lanes& x, const Lanes& y, const Lanes& height,
 
 FIRETWIN_CLONES("avx2")
 void FlameField::add_front(const Foot& foot, const Lanes& height, float size, GasLanes& out) const {
-  const Lanes length = foot.node[length_channel];
-  Lanes drawn;
+  // Tongues differ in height alone: patterns that shrank across and along too would be combed.
+  const Lanes length = foot.node[length_channel], scale = foot.node[scale_channel];
+  Lanes drawn, wide;
   drawn_lengths(length, size, drawn);
-  const Lanes away = foot.node[distance_channel] / drawn, up = height / drawn;
+  drawn_lengths(scale, size, wide);
+  const Lanes away = foot.node[distance_channel] / wide, up = height / drawn;
   const Lanes seen = (length > shortest && up < library_.top() && away < library_.behind() &&
                       away > -library_.ahead())
                          ? Lanes{} + 1.0F
@@ -344,8 +356,9 @@ void FlameField::add_front(const Foot& foot, const Lanes& height, float size, Ga
   if (greatest(seen) <= 0.0F) {
     return;
   }
-  out.length = length;
-  out.drawn = drawn;
+  out.lowest = least(seen > 0.0F ? drawn : Lanes{} + greatest(drawn));
+  out.length = scale;
+  out.drawn = wide;
   out.height = up;
   out.share = foot.node[share_channel];
   const float cell = library_.lines()[0].front()->scale().cell;
@@ -354,7 +367,7 @@ void FlameField::add_front(const Foot& foot, const Lanes& height, float size, Ga
   for (std::size_t kind = 0; kind < library_.lines().size(); ++kind) {
     const Lanes burning = seen * foot.shares[kind];
     const Line line{foot, away, up, levels, kind, 0};
-    for (const Octave& octave : Octaves(drawn, burning)) {
+    for (const Octave& octave : Octaves(wide, burning)) {
       add_line(line, octave, out);
     }
   }
@@ -372,6 +385,7 @@ void FlameField::add_low(const Foot& foot, const Lanes& height, float size, GasL
   if (greatest(seen) <= 0.0F) {
     return;
   }
+  out.lowest = least(seen > 0.0F ? drawn : Lanes{} + greatest(drawn));
   out.length = length;
   out.drawn = drawn;
   out.height = up;
@@ -556,6 +570,7 @@ void FlameField::add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, floa
     out.length = more ? Lanes{} + crown.top : out.length;
     out.drawn = out.length;
     out.share = Lanes{} + 1.0F;
+    out.lowest = std::min(out.lowest, crown.top);
     out.any = out.any || greatest(mine) > crown_blend;
   }
 }

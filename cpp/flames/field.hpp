@@ -5,8 +5,10 @@
 #include "flames/library.hpp"
 #include "flames/tiles.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace firetwin::flames {
 
@@ -20,6 +22,7 @@ struct GasLanes {
   Lanes length{};       ///< of the flames, m
   Lanes drawn{};        ///< length at which they are drawn, m: at least some pixels
   Lanes share{};        ///< of the ground that burns, 0 to 1
+  float lowest = std::numeric_limits<float>::max(); ///< height of the lowest flames, m
   bool any = false;
 };
 
@@ -31,6 +34,7 @@ struct FlameSamples {
   Codes codes(std::size_t lane) const {
     return {gas[0].code[lane], gas[1].code[lane], gas[2].code[lane]};
   }
+  float lowest() const { return std::min({gas[0].lowest, gas[1].lowest, gas[2].lowest}); }
   bool any() const { return gas[0].any || gas[1].any || gas[2].any; }
 };
 
@@ -60,6 +64,8 @@ public:
   void evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float size,
                 FlameSamples& out) const;
 
+  /// Speed at most, m/m, of the foot of the gas along a ray; the wind shears flames as much.
+  float foot_speed(float height, const std::array<float, 3>& direction) const;
   /// Returns a distance (m) from a place in a direction within which nothing burns; 0 near flames.
   float free_distance(const std::array<float, 3>& place,
                       const std::array<float, 3>& direction) const;

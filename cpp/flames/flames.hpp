@@ -100,7 +100,7 @@ public:
   bool next(float limit, FlameSlab& slab);
 
 private:
-  float step_at(const FlameTiles::Tile& tile, float limit) const;
+  float step_at(const FlameTiles::Tile& tile, float height, float limit) const;
   void fill(float from, float step, FlameSlab& slab);
 
   const FlameVolume& flames_;
@@ -109,6 +109,7 @@ private:
   float at_, end_;
   FlameSamples::Codes before_{}; ///< at the end of the last slab
   float before_at_ = -1.0F;      ///< m
+  float lowest_ = 0.0F;          ///< height of the lowest flames in the last slab, m
 };
 
 } // namespace firetwin::flames

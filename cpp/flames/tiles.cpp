@@ -27,11 +27,12 @@ std::int64_t square_number(double at, double span) {
 
 /// Length of the flames that may stand in a tile, m, by the nodes around its cells.
 struct TileFlames {
-  float front = 0.0F, low = 0.0F, nearest = no_end, farthest = -no_end;
+  float front = 0.0F, scale = 0.0F, low = 0.0F, nearest = no_end, farthest = -no_end;
   float ground = FlameTiles::none, lowest = no_end;
 
   void add(const Node& node) {
     front = std::max(front, node[length_channel]);
+    scale = std::max(scale, node[scale_channel]);
     low = std::max(low, node[low_channel]);
     nearest = std::min(nearest, node[distance_channel]);
     farthest = std::max(farthest, node[distance_channel]);
@@ -40,8 +41,8 @@ struct TileFlames {
   }
   /// @param least drawn length of the shortest flames, m
   float longest(const FlameReach& reach, float least) const {
-    const float drawn = front > 0.0F ? std::max(front, least) : 0.0F;
-    const bool burns = nearest < reach.behind * drawn && farthest > -reach.ahead * drawn;
+    const float drawn = front > 0.0F ? std::max(front, least) : 0.0F, wide = std::max(scale, drawn);
+    const bool burns = nearest < reach.behind * wide && farthest > -reach.ahead * wide;
     return std::max(burns ? drawn : 0.0F, low > 0.0F ? std::max(low, least) : 0.0F);
   }
 };
@@ -184,6 +185,7 @@ void FlameTiles::add_patches(const FlamePatches& patches, const Vector& origin) 
       node[ground_channel] -= static_cast<float>(origin[2]);
       node[length_channel] *= burning_over_seen;
       node[low_channel] *= burning_over_seen;
+      node[scale_channel] = std::max(node[scale_channel] * burning_over_seen, node[length_channel]);
     }
     made.x = static_cast<float>(patches.corner[2 * n] - origin[0]);
     made.y = static_cast<float>(patches.corner[2 * n + 1] - origin[1]);

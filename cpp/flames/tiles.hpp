@@ -21,8 +21,11 @@ enum Channel : std::size_t {
   share_channel,    ///< share of the ground here that burns, 0 to 1
   east_channel,     ///< of the direction in which the front moves, a unit vector
   north_channel,
-  channel_count = lane_count ///< nodes are read as vectors; the last value is unused
+  scale_channel, ///< mean length of the flames around, at least `length_channel`: patterns' size, m
+  channel_count
 };
+
+static_assert(channel_count == lane_count, "nodes are read as vectors");
 
 using Node = std::array<float, channel_count>;
 using NodeLanes = std::array<Lanes, channel_count>;

@@ -80,7 +80,7 @@ def library() -> FlameLibrary:
 def _core_block(kind: str, seed: int) -> CoreBlock:
     block = load(kind, seed)
     scale = {name: getattr(block, name) for name in ("cell", "front", "interval", "fade", "wind")}
-    return CoreBlock(block.codes, block.rise, **scale, periodic=kind != "crown")
+    return CoreBlock(block.codes, block.rise, **scale, periodic=kind != "crown", soft=True)
 
 
 def read(path: Path) -> FlameBlock:

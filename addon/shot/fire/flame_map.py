@@ -106,8 +106,9 @@ def lengths(shot: Any, place: Array, row: Array, column: Array, time: float) -> 
     ground, front = shot.ground, shot.full.front
     row, column = flame_state.shift(shot, place, row, column)
     speed, residence = ground.spread(row, column), bilinear(front.residence, row, column)
-    even = flame_state.even_length(shot, row, column, speed)
-    long = np.minimum(even * flame_state.unevenness(shot, place, even), flame_state.LONGEST)
+    even = flame_state.even_length(shot, row, column)
+    uneven = flame_state.patchiness(shot, place, even) * flame_state.tongues(shot, place, even)
+    long = np.minimum(even * uneven, flame_state.LONGEST)
     age = time - ground.arrival_at(row, column)
     share = flame_phase.height(age, speed, residence, long, flame_state.patches(shot, place))
     found = long * flame_noise.upright(long, carrying_wind(shot)) * share

@@ -1,7 +1,7 @@
 """Values at the nodes of patches of flames.
 
-A node has the values `GROUND`, `LENGTH`, `DISTANCE`, `LOW`, `SHARE` and direction (`EAST`, `NORTH`), and an
-unused eighth one; see `FlameState`. Far from the camera, cells are wider than gaps, patches and the ragged
+A node has the values `GROUND`, `LENGTH`, `DISTANCE`, `LOW`, `SHARE`, direction (`EAST`, `NORTH`) and `SCALE`;
+see `FlameState`. Far from the camera, cells are wider than gaps, patches and the ragged
 edge of the front. Values are therefore means over places in the cell of a node, about `_PART` apart:
 
 - The share is the fraction of places that have flames when the front is there: less than 1 where it has gaps.
@@ -17,19 +17,17 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from . import flame_state
 from .flame_window import AHEAD, FlameWindow
 
 SIDE = 32  # cells along a patch
-GROUND, LENGTH, DISTANCE, LOW, SHARE, EAST, NORTH = range(7)
+GROUND, LENGTH, DISTANCE, LOW, SHARE, EAST, NORTH, SCALE = range(8)
 _PART, _PARTS = 4.0, 4  # m, distance between the places of a cell; most along a cell
 _GROUND, _LEAST_EVERY = 4.0, 2  # m, distance at which the ground is computed; its finest waves are 26 m long
 _MOST_EVERY = 8  # cells
 _AROUND = 1.5  # cells around the ground with flames that have values: interpolation needs them
-_TURN = (2.5, 30.0)  # m, half the distance over which the direction is smoothed: at least, and at most
 
 Array = NDArray[np.float64]
 
@@ -50,8 +48,7 @@ def values(
         place = np.stack(np.broadcast_arrays(axis, axis[:, None]), axis=-1) + corners[:, None, None]
         turn = _turns(row, column, spacing)[at // (SIDE + 1) ** 2]
         place, row, column = place.reshape(-1, 2)[at], row.ravel()[at], column.ravel()[at]
-        flat[at, LENGTH : SHARE + 1] = _means(shot, window, place, row, column, turn, spacing, wind)
-        flat[at, EAST : NORTH + 1] = _direction(shot.ground, row, column, spacing, wind)
+        flat[at, LENGTH : SCALE + 1] = _means(shot, window, place, row, column, turn, spacing, wind)
     return nodes
 
 
@@ -102,12 +99,12 @@ def _means(
     spacing: float,
     wind: tuple[float, float],
 ) -> Array:
-    """Return length, distance, low flames and share (n, 4)."""
+    """Return length, distance, low flames, share, direction and scale (n, 7)."""
     parts = int(np.clip(np.ceil(spacing / _PART), 1, _PARTS))
     if parts == 1:
         state = flame_state.at(shot, place, row, column, window.time, wind)
         burns = (state.length > 0.0).astype(np.float64)
-        return np.stack([state.length, state.distance, state.low, burns], axis=-1)
+        return np.column_stack([state.length, state.distance, state.low, burns, state.direction, state.scale])
     line = ((np.arange(parts) + 0.5) / parts - 0.5) * spacing
     north, east = (each.ravel() for each in np.meshgrid(line, line, indexing="ij"))
     places = place[:, None] + np.stack([east, north], axis=-1)
@@ -116,7 +113,10 @@ def _means(
         for axis, each in enumerate((row, column))
     )
     state = flame_state.at(shot, places.reshape(-1, 2), rows.ravel(), columns.ravel(), window.time, wind)
-    return _mean(*(each.reshape(rows.shape) for each in (state.length, state.distance, state.low)))
+    parts_of = [each.reshape(rows.shape) for each in (state.length, state.distance, state.low)]
+    direction = state.direction.reshape(*rows.shape, 2).sum(axis=1)
+    direction /= np.maximum(np.hypot(*direction.T), 1.0e-9)[:, None]
+    return np.column_stack([_mean(*parts_of), direction, state.scale.reshape(rows.shape).mean(axis=1)])
 
 
 def _mean(length: Array, distance: Array, low: Array) -> Array:
@@ -126,21 +126,3 @@ def _mean(length: Array, distance: Array, low: Array) -> Array:
     long, away = ((can * each).sum(axis=1) / count for each in (length, distance))
     away = np.where(can.any(axis=1), away, distance.mean(axis=1))
     return np.stack([long, away, low.mean(axis=1), can.mean(axis=1)], axis=-1)
-
-
-def _direction(ground: Any, row: Array, column: Array, spacing: float, wind: tuple[float, float]) -> Array:
-    """Return unit vectors (n, 2) to the east and north in which the front moves; the wind's where unknown."""
-    slope = []
-    far = np.clip(2.0 * spacing, *_TURN)
-    for axis, cell in enumerate(ground.cell):
-        step = max(0.5, far / cell) * np.array([axis == 0, axis == 1])
-        ahead, behind = (
-            bilinear(ground.burn_time, row + sign * step[0], column + sign * step[1]) for sign in (1.0, -1.0)
-        )
-        slope.append((ahead - behind) / (2.0 * step.max() * cell))
-    north, east = slope
-    steep = np.hypot(east, north)
-    speed = np.hypot(*wind)
-    other = np.array(wind) / speed if speed > 0.0 else np.array([0.0, 1.0])
-    unit = np.stack([east, north], axis=-1) / np.maximum(steep, 1.0e-9)[:, None]
-    return np.where(steep[:, None] > 1.0e-6, unit, other)

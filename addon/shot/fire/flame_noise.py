@@ -44,7 +44,7 @@ def surge_factor(east: Array, north: Array, length: Array, seed: int) -> Array:
     for number in np.unique(np.concatenate([low, low + 1.0])):
         weight = np.maximum(1.0 - np.abs(octave - number), 0.0)
         at = np.flatnonzero(weight > 0.0)
-        wave[at] += weight[at] * noise.fractal(east[at], north[at], _SURGE * 2.0**number, 2, seed + 580)
+        wave[at] += weight[at] * noise.fractal(east[at], north[at], _SURGE * 2.0**number, 1, seed + 580)
     return np.minimum(np.exp(_SURGES * wave / np.hypot(part, 1.0 - part)), MOST_SURGE)
 
 

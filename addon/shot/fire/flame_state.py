@@ -13,21 +13,27 @@ from firetwin_core import constants
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
+from ...geometry import grids
 from ..terrain import noise
 from . import flame_noise, flame_phase, flame_size
 
 FARTHEST = 9000.0  # m, bound of the distance from the front
 LEAST, LONGEST = 0.15, 75.0  # m, flame lengths
-_CROWN_SURGE = 0.8  # part of the surges that a crown fire does not have: they would be columns (by eye)
+_CROWN_SURGE = 0.5  # part of the surges that a crown fire does not have: they would be columns (by eye)
 _TALL = 1.2  # length of tall flames over the mean length, without surges (by eye)
 TALLEST = _TALL * flame_noise.MOST_SURGE  # length of the longest flames over the mean length
-RAGGED = ((14.0, 3.5), (4.5, 1.2))  # m, sizes and shifts of the ragged edge of a crown fire's front (by eye)
-_UNEVEN = ((26.0, 0.8, 0.7), (9.0, 0.6, 0.2))
-"""Sizes of the noise of the lengths' logarithm, m, and its strengths in low flames and in a crown fire, where
-narrow patches would be spears (by eye)."""
-_BETWEEN = 0.55  # length between clumps of crowns over the length in them (by eye)
+RAGGED = ((14.0, 2.5),)  # m, sizes and shifts of the ragged edge of a crown fire's front (by eye)
+_BETWEEN = 0.8  # length between clumps of crowns over the length in them (by eye)
 _LEAST_FUEL = 0.05  # kg/m2
+_EDGE = 0.2  # margin to gaps over which flames become shorter, narrower edges would comb them (by eye)
+_BLURS = 16
 _HELD = 0.5, 0.4  # width over which flames end at the perimeter: flame lengths; at most, cells (by eye)
+
+_TURN = (0.35, 0.5, 30.0)
+"""Steps for the front's pace and direction, to each side: flame lengths; at least, and at most, m. The solved
+flames are drawn along and across the front: sheared where its distance and its direction disagree."""
+_STEEP = 3.0  # greatest factor between the front's pace at a place and over a cell
+_AHEAD = 8.0  # distance ahead of the front beyond which there are no flames, flame lengths
 
 _PATCH = 9.0  # m, size of patches of fuel that burn on behind the front
 
@@ -42,15 +48,21 @@ class FlameState:
     ----------
     length
         Full length of flames when the front is there, m; 0 in gaps and where nothing burns.
+    scale
+        Mean length of the flames around, m, to which the patterns in flames are drawn.
     distance
         Distance behind the front, m; negative ahead of it.
     low
         Height now of flames that burn on behind the front, m.
+    direction
+        (n, 2) unit vectors to the east and north in which the front moves; 0 where no flames are near.
     """
 
     length: Array
+    scale: Array
     distance: Array
     low: Array
+    direction: Array
 
 
 def at(
@@ -67,14 +79,15 @@ def at(
         Wind to the east and north that carries the gas of flames, m/s.
     """
     ground, front = shot.ground, shot.full.front
+    even_row, even_column = row, column
     row, column = shift(shot, place, row, column)
     speed, residence = ground.spread(row, column), bilinear(front.residence, row, column)
-    even = even_length(shot, row, column, speed)
-    length = even * _held(ground, row, column, even)
-    length *= unevenness(shot, place, even)
+    even = even_length(shot, row, column)
+    scale = np.minimum(even * patchiness(shot, place, even), LONGEST)
+    length = scale * _held(ground, row, column, even) * tongues(shot, place, even)
     length = np.where(length >= LEAST, np.minimum(length, LONGEST), 0.0)
     age = time - bilinear(ground.burn_time, row, column)
-    distance = np.clip(age * speed, -FARTHEST, FARTHEST)
+    distance, direction = _front(shot, place, even_row, even_column, age, speed, scale)
     low = np.zeros(len(length))
     behind = np.flatnonzero((length > 0.0) & flame_phase.is_behind(distance, length))
     if len(behind):
@@ -89,7 +102,36 @@ def at(
         long = length[behind] * share
         low[behind] = long * flame_noise.upright(long, wind)
     low = np.where(low >= LEAST, low, 0.0)
-    return FlameState(length, distance, low)
+    return FlameState(length, scale, distance, low, direction)
+
+
+def _front(
+    shot: Any, place: Array, row: Array, column: Array, age: Array, speed: Array, scale: Array
+) -> tuple[Array, Array]:
+    """Return the distance behind the front (n,), m, and its direction (n, 2), from arrival times around."""
+    distance, direction = age * speed, np.zeros((len(age), 2))
+    near = np.flatnonzero((scale > 0.0) & (distance > -_AHEAD * scale))
+    if len(near):
+        step = np.clip(_TURN[0] * scale[near], *_TURN[1:])
+        slope = _slope(shot, place[near], row[near], column[near], step)
+        pace = np.hypot(*slope.T)
+        direction[near] = slope / np.maximum(pace, 1.0e-9)[:, None]
+        distance[near] = age[near] / np.clip(pace, 1.0 / (_STEEP * speed[near]), _STEEP / speed[near])
+    return np.clip(distance, -FARTHEST, FARTHEST), direction
+
+
+def _slope(shot: Any, place: Array, row: Array, column: Array, step: Array) -> Array:
+    """Return the slope (n, 2) of arrival times to the east and north, s/m, over steps (n,), m, each way."""
+    ground, slope = shot.ground, []
+    for axis in (1, 0):
+        rise = np.zeros(len(step))
+        for sign in (1.0, -1.0):
+            moved, at = place.copy(), [row, column]
+            moved[:, 1 - axis] += sign * step
+            at[axis] = at[axis] + sign * step / ground.cell[axis]
+            rise += sign * bilinear(ground.burn_time, *shift(shot, moved, *at))
+        slope.append(rise / (2.0 * step))
+    return np.stack(slope, axis=-1)
 
 
 def shift(shot: Any, place: Array, row: Array, column: Array) -> tuple[Array, Array]:
@@ -109,36 +151,60 @@ def pattern_scale(shot: Any) -> float:
     return float(max(shot.full.front_scale, 0.3))
 
 
-def even_length(shot: Any, row: Array, column: Array, speed: Array) -> Array:
-    """Return the mean flame length (n,), m, at rows and columns with a rate of spread (m/s)."""
+def even_length(shot: Any, row: Array, column: Array) -> Array:
+    """Return the mean flame length (n,), m, at rows and columns; 0 where there is no fuel."""
     fields = shot.ground.fields
-    canopy = bilinear(fields.canopy_fuel, row, column)
-    fuel = canopy + bilinear(fields.surface_fuel, row, column)
-    intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * fuel * speed
-    formula = shot.full.settings.fire.flame_length
-    return flame_size.flame_length(intensity, formula, canopy > flame_size.CROWNS) * (fuel > _LEAST_FUEL)
+    fuel = bilinear(fields.canopy_fuel, row, column) + bilinear(fields.surface_fuel, row, column)
+    return bilinear(shot.full.flame_length, row, column) * (fuel > _LEAST_FUEL)
 
 
-def unevenness(shot: Any, place: Array, even: Array) -> Array:
-    """Return a factor (n,) on mean flame lengths (m) at scene points (n, 2), m; 0 in gaps of the front."""
+def mean_length(shot: Any) -> Array:
+    """Return the mean flame length (ny, nx), m, on the terrain grid, also beside the ground that burns.
+
+    It is smoothed over half a tall flame, as a flame varies over its own length and not from cell to cell.
+    """
+    ground, front = shot.full.bare_ground, shot.full.front
+    canopy = ground.fields.canopy_fuel
+    fuel = np.where(ground.burned > 0.0, canopy + ground.fields.surface_fuel, 0.0)
+    intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * fuel * front.speed
+    length = flame_size.flame_length(
+        intensity, shot.full.settings.fire.flame_length, canopy > flame_size.CROWNS
+    )
+    burns = fuel > _LEAST_FUEL
+    if not burns.any():
+        return np.zeros(length.shape)
+    spans = 0.5 * np.percentile(length[burns], 90.0) / (0.5 * sum(ground.cell))
+    layers = np.stack([np.where(burns, np.log(np.maximum(length, LEAST)), 0.0), burns], axis=-1)
+    for _ in range(
+        int(np.clip(np.ceil(2.0 * spans**2), 1, _BLURS))
+    ):  # each has a variance of half a cell squared
+        layers = grids.blur(layers)
+    weight = layers[..., 1]
+    return np.where(weight > 0.0, np.exp(layers[..., 0] / np.maximum(weight, 1.0e-9)), 0.0)
+
+
+def patchiness(shot: Any, place: Array, even: Array) -> Array:
+    """Return a factor (n,) on mean flame lengths (m) at scene points (n, 2), m: patches flare up or creep."""
     east, north = place.T
-    seed, scale = shot.full.settings.seed, pattern_scale(shot)
-    crowded = noise.smoothstep(*flame_noise.EVEN, even)
-    factor = np.ones(len(even))
-    flaring = np.flatnonzero(crowded < 1.0)
-    factor[flaring] = flame_noise.flare_factor(east[flaring], north[flaring], even[flaring], scale, seed)
-    for index, (size, low, tall) in enumerate(_UNEVEN):
-        wave = noise.fractal(east, north, size * scale, 1, seed + 550 + index)
-        factor *= np.exp((low + (tall - low) * crowded) * wave)
-    crowns = np.flatnonzero(crowded > 0.0)
+    crowded, factor = noise.smoothstep(*flame_noise.EVEN, even), np.ones(len(even))
+    flaring, crowns = np.flatnonzero(crowded < 1.0), np.flatnonzero(crowded > 0.0)
+    factor[flaring] = flame_noise.flare_factor(
+        east[flaring], north[flaring], even[flaring], pattern_scale(shot), shot.full.settings.seed
+    )
     clumps = flame_noise.clumping(shot, east[crowns], north[crowns])
     sparse = (1.0 - _BETWEEN) * (1.0 - noise.smoothstep(*flame_noise.CLUMPS, clumps))
     factor[crowns] *= 1.0 - crowded[crowns] * sparse
-    factor = np.minimum(factor, _TALL)
-    factor *= flame_noise.surge_factor(east, north, even, seed) ** (1.0 - _CROWN_SURGE * crowded)
+    return np.minimum(factor, _TALL)
+
+
+def tongues(shot: Any, place: Array, even: Array) -> Array:
+    """Return a factor (n,) on flame lengths (m) at scene points (n, 2), m: tongues; 0 in gaps of a front."""
+    east, north = place.T
+    seed, crowded = shot.full.settings.seed, noise.smoothstep(*flame_noise.EVEN, even)
+    factor = flame_noise.surge_factor(east, north, even, seed) ** (1.0 - _CROWN_SURGE * crowded)
     broken = np.flatnonzero(flame_noise.gap_fraction(even) > 0.0)
-    margin = flame_noise.gap_margin(east[broken], north[broken], even[broken], scale, seed)
-    factor[broken] *= noise.smoothstep(-0.06, 0.06, margin)
+    margin = flame_noise.gap_margin(east[broken], north[broken], even[broken], pattern_scale(shot), seed)
+    factor[broken] *= noise.smoothstep(-_EDGE, _EDGE, margin)
     return factor
 
 

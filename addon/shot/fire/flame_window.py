@@ -110,7 +110,7 @@ def find(shot: Any, time: float) -> FlameWindow | None:
     place = [at + lines.start for at, lines in zip(np.nonzero(recent), part, strict=True)]
     row, column = (each.astype(np.float64) for each in place)
     speed, residence = ground.spread(row, column), np.nan_to_num(front.residence[place[0], place[1]])
-    even = flame_state.even_length(shot, row, column, speed)
+    even = flame_state.even_length(shot, row, column)
     longest = np.minimum(flame_state.TALLEST * even, flame_state.LONGEST)
     scale = flame_state.pattern_scale(shot)
     far = np.sqrt(2.0) * scale * sum(shift for _, shift in flame_state.RAGGED)

@@ -30,6 +30,7 @@ class FlameBlock:
         fade: int,
         wind: float,
         periodic: bool,
+        soft: bool = False,
     ) -> None:
         """Copy a block.
 
@@ -50,6 +51,8 @@ class FlameBlock:
             Wind across the front over sqrt(g L).
         periodic
             Along the front; else nothing burns beyond the sides.
+        soft
+            Mean of three cells, weights 1 2 1, up and across.
 
         Raises
         ------

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from firetwin.shot.fire import flame_map, flame_nodes, flame_view, flame_window
-from firetwin.shot.fire.flame_nodes import DISTANCE, LENGTH, LOW, NORTH, SHARE, SIDE
+from firetwin.shot.fire import flame_map, flame_nodes, flame_state, flame_view, flame_window
+from firetwin.shot.fire.flame_nodes import DISTANCE, EAST, LENGTH, LOW, NORTH, SHARE, SIDE
 from straight_front import PACE, N, shot_of
 
 PIXEL, TIME = 0.002, 300.0
@@ -97,14 +97,40 @@ def test_length_does_not_depend_on_age(forest):
     assert one[both][:, LENGTH] == pytest.approx(other[both][:, LENGTH])
     behind = both & (one[..., DISTANCE] > -20.0)
     grown = other[behind][:, DISTANCE] - one[behind][:, DISTANCE]
-    assert grown == pytest.approx(10.0 * PACE, rel=0.1)
+    assert grown.mean() == pytest.approx(10.0 * PACE, rel=0.1)
+    assert np.percentile(grown, (2, 98)) == pytest.approx(
+        10.0 * PACE, rel=0.3
+    )  # less where the edge is oblique
 
 
 def test_the_front_moves_east(shot):
     nodes = grid(shot, 1.0)
-    inner = nodes[..., LENGTH] > 0.0
-    assert np.abs(nodes[inner][:, NORTH]).max() < 0.05
-    assert (nodes[inner][:, NORTH - 1] > 0.99).all()
+    inner = nodes[(nodes[..., LENGTH] > 0.0) & (np.abs(nodes[..., DISTANCE]) < 8.0)]
+    assert inner[:, EAST].mean() > 0.97
+    assert abs(inner[:, NORTH].mean()) < 0.05
+
+
+def test_distances_are_metric_and_along_the_direction(shot):
+    """Otherwise solved flames, which are drawn across and along the front, would be sheared to combs."""
+    nodes = grid(shot, 0.5, half=96.0)
+    north, east = np.gradient(nodes[..., DISTANCE].astype(np.float64), 0.5)
+    near = ((nodes[..., LENGTH] > 0.0) & (np.abs(nodes[..., DISTANCE]) < 1.0))[2:-2, 2:-2]
+    rise = -(east * nodes[..., EAST] + north * nodes[..., NORTH])[2:-2, 2:-2][near]
+    aside = np.abs(east * nodes[..., NORTH] - north * nodes[..., EAST])[2:-2, 2:-2][near]
+    assert len(rise) > 100
+    assert np.percentile(rise, (5, 95)) == pytest.approx((1.0, 1.0), abs=0.2)
+    assert np.percentile(aside, 95) < 0.25
+
+
+def test_lengths_vary_no_faster_than_flames_are_long(forest):
+    fuel = forest.full.bare_ground.fields.canopy_fuel
+    even = flame_state.mean_length(forest)
+    fuel[fuel.shape[0] // 2, ::2] *= 20.0  # a row of spikes, 20 m apart
+    vars(forest.full).pop("flame_length", None)
+    spiked = flame_state.mean_length(forest)
+    assert even.max() > 4.0
+    for axis in (0, 1):
+        assert np.abs(np.diff(spiked, axis=axis)).max() / 20.0 < 1.0
 
 
 def test_patches_of_two_cameras_agree(shot):
