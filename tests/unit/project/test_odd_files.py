@@ -86,7 +86,7 @@ MORE = {
 }
 SILENT = {"model's log", "state of a watch", "conversion before"}
 """Readers that take an odd file for a missing one."""
-WRITTEN = {"asset catalogue", "saved scene file"}
+WRITTEN = {"asset catalogue"}
 """Files that are written if they cannot be found."""
 ODD = {
     "pipe": os.mkfifo,
