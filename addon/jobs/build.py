@@ -96,10 +96,11 @@ def in_blender(
     if live:
         _build_live(shot, stage.scene, progress, tell)
     viewport.prepare_file()
+    filmed = bake.shot_frames(shot) if shot.settings.smoke.enabled else ()
+    missing = len(volume_files.missing(stage, filmed))  # before Blender's file is in a temporary folder
     volume_files.make_paths_relative(out)
     save(out, tell)
-    filmed = bake.shot_frames(shot) if shot.settings.smoke.enabled else ()
-    return len(volume_files.missing(stage, filmed))
+    return missing
 
 
 def _build_live(shot: Shot, scene: bpy.types.Scene, progress: Progress, tell: MessageCallback) -> None:
