@@ -68,7 +68,7 @@ def frame(run_folder, tmp_path_factory):
 
 
 def test_each_block_has_the_class_and_its_own_number(frame):
-    kind, clear, instance, _ = np.moveaxis(frame("masks"), -1, 0)
+    kind, clear, instance, *_ = np.moveaxis(frame("masks"), -1, 0)
     built = kind == masks.BUILDING
     assert built.sum() > 40
     assert set(instance[built]) == {1.0, 2.0}
