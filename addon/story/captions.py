@@ -7,7 +7,7 @@ that it names.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from typing import cast
 
@@ -33,6 +33,8 @@ class Caption:
     ----------
     moment
         Model time of the facts, UTC; None on cards.
+    area
+        Area burned by then, m2.
     """
 
     span: Span
@@ -41,6 +43,7 @@ class Caption:
     words: str
     moment: datetime | None = None
     facts: str = ""
+    area: float = 0.0
 
     @property
     def lines(self) -> str:
@@ -99,9 +102,7 @@ def _filled(story: Storyboard, run: Run, caption: Caption, area: float) -> Capti
     ]
     if run.synthetic:
         parts.append(SYNTHETIC)
-    return Caption(
-        caption.span, caption.first, caption.end, caption.words, caption.moment, SEPARATOR.join(parts)
-    )
+    return replace(caption, facts=SEPARATOR.join(parts), area=area)
 
 
 def clocks(moment: datetime, zone: str) -> str:

@@ -20,8 +20,6 @@ _FIELDS = {
 def text(story: Storyboard, captions: Sequence[Caption], run: Run) -> str:
     """Write the report as JSON: sources, shots with their reasons, omitted shots, and numbers of captions."""
     field = info.burned_from(run)
-    timed = [each for each in captions if each.moment]
-    burned = info.burned(run, [times.seconds(run, each.moment) for each in timed if each.moment])
     content = {
         "run": run.name,
         "synthetic": bool(run.synthetic),
@@ -38,10 +36,10 @@ def text(story: Storyboard, captions: Sequence[Caption], run: Run) -> str:
                 "from_s": round((each.first - 1) / story.fps, 3),
                 "to_s": round((each.end - 1) / story.fps, 3),
                 "time": times.iso(each.moment),
-                "burned_area_m2": round(area, 1),
+                "burned_area_m2": round(each.area, 1),
                 "text": each.text,
             }
-            for each, area in zip(timed, burned, strict=True)
+            for each in captions
             if each.moment
         ],
     }

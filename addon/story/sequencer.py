@@ -239,7 +239,7 @@ def _joined(place: tuple[int, int, int], text: str) -> str:
 
 
 def _mark(scene: bpy.types.Scene, project: Project) -> None:
-    """Add missing markers; markers that are there stay where they are."""
+    """Add missing markers; existing ones keep their frames."""
     for frame, words in project.markers:
         if words not in scene.timeline_markers:
             scene.timeline_markers.new(words, frame=frame)
