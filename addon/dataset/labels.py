@@ -43,9 +43,9 @@ SHARE = 0.2
 GAP = 0.02
 """Largest gap within an instance, share of the picture's width."""
 PIECE, AROUND = 0.05, 0.05
-"""Smoke with a smaller share of the pixels of a plume is a piece of it, if invisible smoke joins them, or if
-their gap is at most this share of the picture's width. Pieces have no box, and are not in that of the plume.
-"""
+"""Least share of a plume's pixels: smaller smoke is a piece of the plume if invisible smoke joins them, or
+their gap is at most the second number, a share of the picture's width. Pieces have no box, and the box of
+their plume leaves them out."""
 MIN_PIXELS = 16
 """Least number of visible pixels of an instance with a box."""
 
