@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ..shot.light import exposure
 from ..shot.shot import Shot
 
@@ -19,10 +17,9 @@ _LIGHT = 13.0  # radiance of flames at exposure 0
 
 def brightness(shot: Shot) -> float:
     """Return the radiance of flames: lower in longer exposures, which limits clipping (smaller aperture)."""
-    stops = exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0]
-    return brightness_at(float(stops))
+    return _LIGHT * dimming(exposure.middle(shot))
 
 
-def brightness_at(stops: float) -> float:
-    """Return the radiance of flames at an exposure (stops)."""
-    return float(_LIGHT * 2.0 ** (-0.85 * stops))
+def dimming(stops: float) -> float:
+    """Return the factor on the radiance of fire at an exposure (stops)."""
+    return float(2.0 ** (-0.85 * stops))

@@ -158,7 +158,7 @@ FlameBlock::FlameBlock(std::span<const std::uint8_t> codes, const Shape& shape,
   mark_burning();
 }
 
-/// Sheets are as thin as a cell. Where wind shears them, linear interpolation shows them as stairs.
+/// Softens codes: linear interpolation shows sheets of one cell as stairs if wind shears them.
 void FlameBlock::soften() {
   const auto [frames, up, along, across] = shape_;
   const auto plane = static_cast<std::size_t>(along * across);

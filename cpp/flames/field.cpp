@@ -64,6 +64,11 @@ float least(const Lanes& value) {
   return -greatest(-value);
 }
 
+/// Returns the lowest of the lengths that are seen, which are more than 0.
+float lowest(const Lanes& length, const Lanes& seen) {
+  return least(seen > 0.0F ? length : Lanes{} + greatest(length));
+}
+
 /// Number, 0 to 1, of a hash.
 double unit(std::uint32_t hash) {
   return static_cast<double>(hash >> 8U) * 0x1.0p-24;
@@ -241,13 +246,12 @@ float FlameField::foot_speed(float height, const std::array<float, 3>& direction
   return across + wind / speed_up * (along + 0.5F * across);
 }
 
-float FlameField::free_distance(const std::array<float, 3>& place,
+float FlameField::free_distance(const std::array<float, 3>& place, float height,
                                 const std::array<float, 3>& direction) const {
   const auto [x, y, z] = place;
   const float across = std::hypot(direction[0], direction[1]), along = std::abs(direction[2]);
   const auto wind_x = lean * static_cast<float>(shape_.wind[0]),
              wind_y = lean * static_cast<float>(shape_.wind[1]);
-  const float height = std::clamp(z - tiles_.ground_at(x, y), 0.0F, 1.0e6F);
   const float wind = std::hypot(wind_x, wind_y), speed = foot_speed(height, direction);
   const float away = shape_.flight_to(height);
   float longest = 0.0F, edge = std::numeric_limits<float>::max();
@@ -356,7 +360,7 @@ void FlameField::add_front(const Foot& foot, const Lanes& height, float size, Ga
   if (greatest(seen) <= 0.0F) {
     return;
   }
-  out.lowest = least(seen > 0.0F ? drawn : Lanes{} + greatest(drawn));
+  out.lowest = lowest(drawn, seen);
   out.length = scale;
   out.drawn = wide;
   out.height = up;
@@ -385,7 +389,7 @@ void FlameField::add_low(const Foot& foot, const Lanes& height, float size, GasL
   if (greatest(seen) <= 0.0F) {
     return;
   }
-  out.lowest = least(seen > 0.0F ? drawn : Lanes{} + greatest(drawn));
+  out.lowest = lowest(drawn, seen);
   out.length = length;
   out.drawn = drawn;
   out.height = up;

@@ -67,7 +67,8 @@ public:
   /// Speed at most, m/m, of the foot of the gas along a ray; the wind shears flames as much.
   float foot_speed(float height, const std::array<float, 3>& direction) const;
   /// Returns a distance (m) from a place in a direction within which nothing burns; 0 near flames.
-  float free_distance(const std::array<float, 3>& place,
+  /// @param height over the ground, m
+  float free_distance(const std::array<float, 3>& place, float height,
                       const std::array<float, 3>& direction) const;
 
 private:

@@ -182,12 +182,13 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
       at_ = enters ? std::min(leave, at_ + (tile.top - z) / direction_[2] + past) : leave;
       continue;
     }
-    const float free = flames_.field().free_distance({x, y, z}, direction_);
+    const float height = std::clamp(z - flames_.tiles().ground_at(x, y), 0.0F, 1.0e6F);
+    const float free = flames_.field().free_distance({x, y, z}, height, direction_);
     if (free > 0.0F) {
       at_ = std::min(at_ + std::max(free, past), leave);
       continue;
     }
-    fill(at_, step_at(tile, z - flames_.tiles().ground_at(x, y), limit), slab);
+    fill(at_, step_at(tile, height, limit), slab);
     at_ = slab.to;
     if (slab.transmittance < 1.0F || slab.infrared_transmittance < 1.0F) {
       return true;
@@ -196,12 +197,11 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
   return false;
 }
 
-/// Steps resolve the flames there: the lowest of them, and sheared as far as the wind does.
+/// Returns the length of a step: shorter for low flames, and where wind shears them.
 float FlameRay::step_at(const FlameTiles::Tile& tile, float height, float limit) const {
   const float pixel = step_pixels * flames_.view().pixel * at_;
   const float length = before_at_ == at_ ? std::min(tile.length, lowest_) : tile.length;
-  const float shear =
-      std::max(flames_.field().foot_speed(std::max(height, 0.0F), direction_), 1.0F);
+  const float shear = std::max(flames_.field().foot_speed(height, direction_), 1.0F);
   const float size = std::max(fine_step * length / shear, least_step);
   const float step = std::clamp(pixel, size, std::max(most_step * length, size));
   return std::min(step, (limit - at_) / static_cast<float>(lane_count) + 1.0e-6F);

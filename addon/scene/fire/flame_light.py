@@ -30,7 +30,7 @@ LIGHT = 2.0e-2
 It is 5e-5 for flames of 18 m with 15,000 cd/m2, half of them gaps, and a radiosity of 61 kW/m2, if a
 luminance of 1 is 16,000 cd/m2; 4e-4 for flames of 2 to 5 m."""
 THICK = 4.0, 2.2  # red radiance of thick flames over the luminance of drawn cores, by day and by night
-"""By eye; that of drawn flames is 1.1, as their mean luminance is half of the core's."""
+"""By eye; drawn flames have 1.1, as their mean luminance is half of the core's."""
 COLOUR = (1.0, 0.36, 0.06)
 LAYOUT = flames.Layout(((REACH[1], 4.0),), gaps=False)
 """Denser than billboards, without gaps: surfaces near the front are lit evenly along it."""
@@ -124,8 +124,8 @@ def _node_group(shot: Shot, card: bpy.types.Object) -> bpy.types.NodeTree:
     eye = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location", transform_space="ORIGINAL")
     distance = tree.vector("DISTANCE", eye, tree.output("GeometryNodeInputPosition"), name="Value")
     power = named("power") * size * flicker * distance.smoothstep(REACH[1], REACH[0])
-    stops = exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0]
-    thick = thick_radiance(float(stops), float(lamps.darkness(shot, np.array([shot.frames.middle]))[0]))
+    dark = float(lamps.darkness(shot, np.array([shot.frames.middle]))[0])
+    thick = thick_radiance(exposure.middle(shot), dark)
     radiance = power / (width * height * (4.0 * np.pi))
     radiance = thick * (1.0 - (radiance * (-1.0 / thick)).exp())
     east, north = shot.wind

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import bpy
-import numpy as np
 
 from ...blender import nodes
 from ...shot.light import exposure
@@ -50,7 +49,7 @@ def build(
 
 def brightness(shot: Shot) -> float:
     """Return the radiance of white letters: equally bright in pictures of all exposures."""
-    return _LIGHT * 2.0 ** -float(exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0])
+    return _LIGHT * 2.0 ** -exposure.middle(shot)
 
 
 def write_place(tree: nodes.Tree, part: nodes.Value | float) -> None:

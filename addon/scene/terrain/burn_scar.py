@@ -6,10 +6,10 @@ import numpy as np
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot.light import exposure
 from ...shot.shot import Shot
 from .. import flame_field
-from .. import glow as fire_glow
-from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME
+from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, dimming
 from . import burning_wood
 from .shading_inputs import GroundInputs
 
@@ -188,9 +188,7 @@ def fire_emission(
     beyond = flame_field.share(tree, stage)
     ember = tree.mix_colour(beyond, _COAL, ember)
     fresh = (tree.math("MAXIMUM", place.age, 0.0) * (-_TIMBER / _FRESH[0]) / place.residence).exp()
-    dim = min(
-        fire_glow.brightness(shot) / fire_glow.brightness_at(_LONG), 1.0
-    )  # so that long exposures do not burn out
+    dim = dimming(max(exposure.middle(shot) - _LONG, 0.0))  # or long exposures would clip
     coals = place.pixel.ramp(*_COALS, *_COAL_LIGHT) * fresh.ramp(0.0, 1.0, _FRESH[2] * dim, _FRESH[1] * dim)
     embers = embers * glowing * tree.mix(beyond, coals, 1.0)
     wood = burning_wood.glow(tree, place) * tree.input(

@@ -22,18 +22,17 @@ LEAST, LONGEST = 0.15, 75.0  # m, flame lengths
 _CROWN_SURGE = 0.5  # part of the surges that a crown fire does not have: they would be columns (by eye)
 _TALL = 1.2  # length of tall flames over the mean length, without surges (by eye)
 TALLEST = _TALL * flame_noise.MOST_SURGE  # length of the longest flames over the mean length
-RAGGED = ((14.0, 2.5),)  # m, sizes and shifts of the ragged edge of a crown fire's front (by eye)
+RAGGED = 14.0, 2.5  # m, size and shift of the ragged edge of a crown fire's front (by eye)
 _BETWEEN = 0.8  # length between clumps of crowns over the length in them (by eye)
 _LEAST_FUEL = 0.05  # kg/m2
-_EDGE = 0.2  # margin to gaps over which flames become shorter, narrower edges would comb them (by eye)
-_BLURS = 16
+_EDGE = 0.2  # margin to gaps over which flames become shorter; narrower edges would comb them (by eye)
+_BLURS = 16  # most passes that smooth the mean length
 _HELD = 0.5, 0.4  # width over which flames end at the perimeter: flame lengths; at most, cells (by eye)
 
 _TURN = (0.35, 0.5, 30.0)
-"""Steps for the front's pace and direction, to each side: flame lengths; at least, and at most, m. The solved
-flames are drawn along and across the front: sheared where its distance and its direction disagree."""
+"""Steps each way for the front's pace and direction: in flame lengths; at least, and at most, m."""
 _STEEP = 3.0  # greatest factor between the front's pace at a place and over a cell
-_AHEAD = 8.0  # distance ahead of the front beyond which there are no flames, flame lengths
+_AHEAD = 8.0  # flame lengths ahead of the front, up to which flames can lean or their distance be wrong
 
 _PATCH = 9.0  # m, size of patches of fuel that burn on behind the front
 
@@ -79,7 +78,7 @@ def at(
         Wind to the east and north that carries the gas of flames, m/s.
     """
     ground, front = shot.ground, shot.full.front
-    even_row, even_column = row, column
+    unshifted = row, column
     row, column = shift(shot, place, row, column)
     speed, residence = ground.spread(row, column), bilinear(front.residence, row, column)
     even = even_length(shot, row, column)
@@ -87,7 +86,7 @@ def at(
     length = scale * _held(ground, row, column, even) * tongues(shot, place, even)
     length = np.where(length >= LEAST, np.minimum(length, LONGEST), 0.0)
     age = time - bilinear(ground.burn_time, row, column)
-    distance, direction = _front(shot, place, even_row, even_column, age, speed, scale)
+    distance, direction = _front(shot, place, *unshifted, age, speed, scale)
     low = np.zeros(len(length))
     behind = np.flatnonzero((length > 0.0) & flame_phase.is_behind(distance, length))
     if len(behind):
@@ -108,7 +107,10 @@ def at(
 def _front(
     shot: Any, place: Array, row: Array, column: Array, age: Array, speed: Array, scale: Array
 ) -> tuple[Array, Array]:
-    """Return the distance behind the front (n,), m, and its direction (n, 2), from arrival times around."""
+    """Return distance behind the front (n,), m, and its direction (n, 2), from one slope of arrival times.
+
+    Solved flames are drawn along and across the front: they are sheared where both disagree.
+    """
     distance, direction = age * speed, np.zeros((len(age), 2))
     near = np.flatnonzero((scale > 0.0) & (distance > -_AHEAD * scale))
     if len(near):
@@ -138,12 +140,11 @@ def shift(shot: Any, place: Array, row: Array, column: Array) -> tuple[Array, Ar
     """Return rows and columns (n,) with shifts that make the front's edge ragged."""
     cell, scale, seed = shot.ground.cell, pattern_scale(shot), shot.full.settings.seed
     east, north = place.T
-    found = [row, column]
-    for index, (size, far) in enumerate(RAGGED):
-        for axis in range(2):
-            wave = noise.fractal(east, north, size * scale, 1, seed + 540 + 4 * index + axis)
-            found[axis] = found[axis] + wave * (far * scale / cell[axis])
-    return found[0], found[1]
+    size, far = (scale * each for each in RAGGED)
+    up, right = (
+        noise.fractal(east, north, size, 1, seed + 540 + axis) * (far / cell[axis]) for axis in range(2)
+    )
+    return row + up, column + right
 
 
 def pattern_scale(shot: Any) -> float:
@@ -152,16 +153,16 @@ def pattern_scale(shot: Any) -> float:
 
 
 def even_length(shot: Any, row: Array, column: Array) -> Array:
-    """Return the mean flame length (n,), m, at rows and columns; 0 where there is no fuel."""
+    """Return the mean flame length (n,), m, at rows and columns; 0 without fuel."""
     fields = shot.ground.fields
     fuel = bilinear(fields.canopy_fuel, row, column) + bilinear(fields.surface_fuel, row, column)
     return bilinear(shot.full.flame_length, row, column) * (fuel > _LEAST_FUEL)
 
 
 def mean_length(shot: Any) -> Array:
-    """Return the mean flame length (ny, nx), m, on the terrain grid, also beside the ground that burns.
+    """Return the mean flame length (ny, nx), m, on the terrain grid, continued into cells that do not burn.
 
-    It is smoothed over half a tall flame, as a flame varies over its own length and not from cell to cell.
+    It is smoothed over half a tall flame: lengths vary over the length of a flame, not from cell to cell.
     """
     ground, front = shot.full.bare_ground, shot.full.front
     canopy = ground.fields.canopy_fuel
@@ -173,11 +174,10 @@ def mean_length(shot: Any) -> Array:
     burns = fuel > _LEAST_FUEL
     if not burns.any():
         return np.zeros(length.shape)
-    spans = 0.5 * np.percentile(length[burns], 90.0) / (0.5 * sum(ground.cell))
+    cells = np.percentile(length[burns], 90.0) / sum(ground.cell)
+    passes = int(np.clip(np.ceil(2.0 * cells**2), 1, _BLURS))  # each adds a variance of half a cell squared
     layers = np.stack([np.where(burns, np.log(np.maximum(length, LEAST)), 0.0), burns], axis=-1)
-    for _ in range(
-        int(np.clip(np.ceil(2.0 * spans**2), 1, _BLURS))
-    ):  # each has a variance of half a cell squared
+    for _ in range(passes):
         layers = grids.blur(layers)
     weight = layers[..., 1]
     return np.where(weight > 0.0, np.exp(layers[..., 0] / np.maximum(weight, 1.0e-9)), 0.0)

@@ -113,7 +113,7 @@ def find(shot: Any, time: float) -> FlameWindow | None:
     even = flame_state.even_length(shot, row, column)
     longest = np.minimum(flame_state.TALLEST * even, flame_state.LONGEST)
     scale = flame_state.pattern_scale(shot)
-    far = np.sqrt(2.0) * scale * sum(shift for _, shift in flame_state.RAGGED)
+    far = np.sqrt(2.0) * scale * flame_state.RAGGED[1]
     lead, lag, pace, length = np.zeros((4, *recent.shape))
     lead[recent] = (AHEAD * longest + far) / speed
     lag[recent] = flame_phase.last_age(speed, residence, longest) + (longest + far) / speed

@@ -52,6 +52,11 @@ def at(shot: Shot, frames: NDArray) -> Array:
     return np.interp(frames, metered.frame, metered.stops)
 
 
+def middle(shot: Shot) -> float:
+    """Return the exposure (stops) in the middle of a shot."""
+    return float(at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0])
+
+
 def darkness(shot: Shot, times: NDArray | float) -> Array:
     """Darkness (n,) without flames at model times (n,), s, for the camera with the least light.
 
