@@ -27,19 +27,23 @@ double share(double dt, double time) {
   return -std::expm1(-dt / time);
 }
 
-/// Calls target(first, n, row-relative pointer) for each part of a row within the boundary zone.
+/// Calls f(first, n, weights) for each part of a row within the boundary zone, in full lanes:
+/// weights beyond the zone are 0.
 template <class Function>
 void near_sides(const std::vector<float>& x, float y, Index reach, const Function& f) {
   const auto n = static_cast<Index>(x.size());
-  std::vector<float> weight(x);
+  const Index side = whole_lanes(reach);
   if (y > 0.0F) {
+    std::vector<float> weight(x);
     for (float& w : weight) {
       w = std::max(w, y);
     }
     f(Index{0}, n, weight.data());
+  } else if (2 * side > n) {
+    f(Index{0}, n, x.data());
   } else {
-    f(Index{0}, reach, weight.data());
-    f(n - reach, reach, weight.data() + (n - reach));
+    f(Index{0}, side, x.data());
+    f(n - side, side, x.data() + (n - side));
   }
 }
 
@@ -96,7 +100,7 @@ Boundaries::Boundaries(const Lattice& lattice, const Ambient& ambient, const Rel
 
 void Boundaries::relax_level(State& state, const State* outside, double dt, Index k) const {
   const auto part = static_cast<float>(share(dt, zone_.time));
-  const auto& ambient = ambient_.wind()[static_cast<std::size_t>(std::min(k, lattice_.nz - 1))];
+  const auto& ambient = ambient_.wind()[static_cast<std::size_t>(k)];
   const auto one = [&](Field& field, const Field* target, float value, const std::vector<float>& x,
                        const std::vector<float>& y) {
     for (Index j = 0; j < static_cast<Index>(y.size()); ++j) {
@@ -112,9 +116,6 @@ void Boundaries::relax_level(State& state, const State* outside, double dt, Inde
     }
   };
   one(state.wind.w, outside ? &outside->wind.w : nullptr, 0.0F, x_, y_);
-  if (k == lattice_.nz) {
-    return;
-  }
   one(state.wind.u, outside ? &outside->wind.u : nullptr, ambient[0], x_face_, y_);
   one(state.wind.v, outside ? &outside->wind.v : nullptr, ambient[1], x_, y_face_);
   one(state.theta, outside ? &outside->theta : &ambient_.theta(), 0.0F, x_, y_);
@@ -140,39 +141,38 @@ void Boundaries::relax_top(State& state, double dt, Index k) const {
   }
 }
 
-void Boundaries::relax(State& state, const State* outside, double dt) const {
-  const auto drag = static_cast<float>(share(dt, zone_.drag_time));
-  each(lattice_.nz, [&](Index k) {
-    relax_level(state, outside, dt, k);
-    relax_top(state, dt, k);
-    if (k == 0) {
-      const std::vector<float> all(static_cast<std::size_t>(lattice_.nx), 1.0F);
-      for (Index j = 0; j < lattice_.ny; ++j) {
-        relax_row(lattice_.nx, ambient_.wind()[0][0], all.data(), drag, state.wind.u.row(0, j));
-        relax_row(lattice_.nx, ambient_.wind()[0][1], all.data(), drag, state.wind.v.row(0, j));
-      }
+void Boundaries::relax(State& state, const State* outside, double dt, Index k) const {
+  relax_level(state, outside, dt, k);
+  relax_top(state, dt, k);
+  if (k == 0) {
+    const auto drag = static_cast<float>(share(dt, zone_.drag_time));
+    const std::vector<float> all(static_cast<std::size_t>(lattice_.nx), 1.0F);
+    for (Index j = 0; j < lattice_.ny; ++j) {
+      relax_row(lattice_.nx, ambient_.wind()[0][0], all.data(), drag, state.wind.u.row(0, j));
+      relax_row(lattice_.nx, ambient_.wind()[0][1], all.data(), drag, state.wind.v.row(0, j));
     }
-  });
+  }
 }
 
-void Boundaries::fill_ghost_cells(State& state, const State* outside) const {
+void Boundaries::fill_ghost_cells(State& state, const State* outside, Index k) const {
   const auto at = [&](auto member) { return outside ? &(outside->*member) : nullptr; };
   const Wind* around = outside ? &outside->wind : nullptr;
-  each(lattice_.nz, [&](Index k) {
-    const auto& wind = ambient_.wind()[static_cast<std::size_t>(k)];
-    ghosts(state.wind.u, around ? &around->u : nullptr, lattice_, k, 1, 0, wind[0]);
-    ghosts(state.wind.v, around ? &around->v : nullptr, lattice_, k, 0, 1, wind[1]);
-    ghosts(state.wind.w, around ? &around->w : nullptr, lattice_, k, 0, 0, 0.0F);
-    ghosts(state.smoke, at(&State::smoke), lattice_, k, 0, 0, 0.0F);
-    ghosts(state.age, at(&State::age), lattice_, k, 0, 0, 0.0F);
-    ghosts(state.theta, outside ? &outside->theta : &ambient_.theta(), lattice_, k, 0, 0, 0.0F);
-    if (ambient_.moist()) {
-      ghosts(state.water, outside ? &outside->water : &ambient_.water(), lattice_, k, 0, 0, 0.0F);
-    }
-  });
-  state.wind.w.fill_level(0, 0.0F);
-  state.wind.w.fill_level(lattice_.nz, 0.0F);
-  balance(state.wind);
+  const auto& wind = ambient_.wind()[static_cast<std::size_t>(k)];
+  ghosts(state.wind.u, around ? &around->u : nullptr, lattice_, k, 1, 0, wind[0]);
+  ghosts(state.wind.v, around ? &around->v : nullptr, lattice_, k, 0, 1, wind[1]);
+  ghosts(state.wind.w, around ? &around->w : nullptr, lattice_, k, 0, 0, 0.0F);
+  ghosts(state.smoke, at(&State::smoke), lattice_, k, 0, 0, 0.0F);
+  ghosts(state.age, at(&State::age), lattice_, k, 0, 0, 0.0F);
+  ghosts(state.theta, outside ? &outside->theta : &ambient_.theta(), lattice_, k, 0, 0, 0.0F);
+  if (ambient_.moist()) {
+    ghosts(state.water, outside ? &outside->water : &ambient_.water(), lattice_, k, 0, 0, 0.0F);
+  }
+}
+
+void Boundaries::close(Wind& wind) const {
+  wind.w.fill_level(0, 0.0F);
+  wind.w.fill_level(lattice_.nz, 0.0F);
+  balance(wind);
 }
 
 /// Adds one speed to the wind through all lateral faces, so that the net outflow is 0, as the

@@ -35,12 +35,15 @@ class Boundaries {
 public:
   Boundaries(const Lattice& lattice, const Ambient& ambient, const RelaxationZone& zone);
 
-  /// Applies sponge layer, Rayleigh damping and surface drag over a step of dt seconds.
+  /// Applies sponge layer, Rayleigh damping and surface drag over a step of dt seconds to level k.
   /// @param outside outer flow on this lattice, near the boundaries; null: the ambient air
-  void relax(State& state, const State* outside, double dt) const;
+  void relax(State& state, const State* outside, double dt, Index k) const;
 
-  /// Fills ghost cells and sets the wind through the lateral faces. Inflow equals outflow.
-  void fill_ghost_cells(State& state, const State* outside) const;
+  /// Fills ghost cells of level k and sets its wind through the lateral faces.
+  void fill_ghost_cells(State& state, const State* outside, Index k) const;
+
+  /// Closes the ground and the top, and balances inflow and outflow through the lateral faces.
+  void close(Wind& wind) const;
 
   /// Width, in columns, of the boundary zone that `outside` must cover.
   Index reach() const { return reach_; }

@@ -1,7 +1,6 @@
 #include "flow/buoyancy.hpp"
 
 #include "base/clones.hpp"
-#include "flow/parallel.hpp"
 
 #include <vector>
 
@@ -37,10 +36,28 @@ void push_row(Index n, const float* __restrict a, const float* __restrict b, flo
   }
 }
 
+/// Computes q += (a + b) x (factor x rise).
+FIRETWIN_CLONES("avx512f", "avx2")
+void push_slope_row(Index n, const float* __restrict a, const float* __restrict b, float factor,
+                    const float* __restrict rise, float* __restrict q) {
+  for (Index i = 0; i < n; ++i) {
+    q[i] += (a[i] + b[i]) * (factor * rise[i]);
+  }
+}
+
 } // namespace
 
 Buoyancy::Buoyancy(const Lattice& lattice, const Terrain& ground, const Ambient& ambient)
-    : lattice_(lattice), ground_(ground), ambient_(ambient), force_(lattice, lattice.nz) {}
+    : lattice_(lattice), ground_(ground), ambient_(ambient), force_(lattice, lattice.nz),
+      rise_x_(lattice, 1), rise_y_(lattice, 1) {
+  for (Index j = 0; j < lattice.ny; ++j) {
+    for (Index i = 0; i < lattice.nx; ++i) {
+      const double here = ground.above(j, i);
+      rise_x_.row(0, j)[i] = i > 0 ? static_cast<float>(here - ground.above(j, i - 1)) : 0.0F;
+      rise_y_.row(0, j)[i] = j > 0 ? static_cast<float>(here - ground.above(j - 1, i)) : 0.0F;
+    }
+  }
+}
 
 void Buoyancy::compute_force(const State& state, Index k) {
   std::vector<float> here(static_cast<std::size_t>(lattice_.nx)), cloud(here.size());
@@ -58,40 +75,24 @@ void Buoyancy::compute_force(const State& state, Index k) {
   }
 }
 
-void Buoyancy::lift(State& state, float dt, Index k) const {
-  for (Index j = 0; j < lattice_.ny; ++j) {
-    push_row(lattice_.nx, force_.row(k - 1, j), force_.row(k, j), 0.5F * dt,
-             state.wind.w.row(k, j));
-  }
-}
-
-void Buoyancy::along_slope(State& state, float dt, Index k) const {
+void Buoyancy::push(State& state, double dt, Index k) const {
   const double share = ground_.share(lattice_.middle[static_cast<std::size_t>(k)]);
-  const auto factor = static_cast<float>(0.5 * share / lattice_.spacing) * dt;
+  const auto step = static_cast<float>(dt);
+  const float slope = static_cast<float>(0.5 * share / lattice_.spacing) * step;
   for (Index j = 0; j < lattice_.ny; ++j) {
     const float* force = force_.row(k, j);
-    float* u = state.wind.u.row(k, j);
-    for (Index i = 1; i < lattice_.nx; ++i) {
-      const auto rise = static_cast<float>(ground_.above(j, i) - ground_.above(j, i - 1));
-      u[i] += (force[i - 1] + force[i]) * (factor * rise);
-    }
-    for (Index i = 0; j > 0 && i < lattice_.nx; ++i) {
-      const auto rise = static_cast<float>(ground_.above(j, i) - ground_.above(j - 1, i));
-      state.wind.v.row(k, j)[i] += (force_.row(k, j - 1)[i] + force[i]) * (factor * rise);
-    }
-  }
-}
-
-void Buoyancy::push(State& state, double dt) {
-  each(lattice_.nz, [&](Index k) { compute_force(state, k); });
-  each(lattice_.nz, [&](Index k) {
     if (k > 0) {
-      lift(state, static_cast<float>(dt), k);
+      push_row(lattice_.nx, force_.row(k - 1, j), force, 0.5F * step, state.wind.w.row(k, j));
     }
     if (!ground_.flat()) {
-      along_slope(state, static_cast<float>(dt), k);
+      push_slope_row(lattice_.nx - 1, force, force + 1, slope, rise_x_.row(0, j) + 1,
+                     state.wind.u.row(k, j) + 1);
     }
-  });
+    if (!ground_.flat() && j > 0) {
+      push_slope_row(lattice_.nx, force_.row(k, j - 1), force, slope, rise_y_.row(0, j),
+                     state.wind.v.row(k, j));
+    }
+  }
 }
 
 } // namespace firetwin::flow

@@ -13,20 +13,21 @@ class Buoyancy {
 public:
   Buoyancy(const Lattice& lattice, const Terrain& ground, const Ambient& ambient);
 
-  void push(State& state, double dt);
+  /// Computes the force on level k.
+  void compute_force(const State& state, Index k);
 
-  /// Scratch memory, unused between calls of `push`.
+  /// Accelerates level k, after the forces on all levels are computed.
+  void push(State& state, double dt, Index k) const;
+
+  /// Scratch memory, unused from `push` to `compute_force`.
   Field& scratch() { return force_; }
 
 private:
-  void compute_force(const State& state, Index k);
-  void lift(State& state, float dt, Index k) const;
-  void along_slope(State& state, float dt, Index k) const;
-
   const Lattice& lattice_;
   const Terrain& ground_;
   const Ambient& ambient_;
-  Field force_; ///< m/s2
+  Field force_;           ///< m/s2
+  Field rise_x_, rise_y_; ///< [1][ny][nx] height of the ground above the cell before, m
 };
 
 } // namespace firetwin::flow

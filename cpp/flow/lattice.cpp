@@ -37,7 +37,7 @@ Lattice::Lattice(Index columns, Index rows, double cell, std::vector<double> lev
     middle.push_back(0.5 * (face[k] + face[k + 1]));
     depth.push_back(face[k + 1] - face[k]);
   }
-  stride = whole_lanes(nx + 2 * halo);
+  stride = whole_lanes(nx) + lanes;
   plane = stride * (ny + 2 * halo);
 }
 

@@ -29,7 +29,7 @@ struct Lattice {
   std::vector<double> face;   ///< [nz + 1] z' of the faces, m, from 0 up
   std::vector<double> middle; ///< [nz] z' of cell centres
   std::vector<double> depth;  ///< [nz] thickness, m
-  Index stride;               ///< floats between rows
+  Index stride;               ///< floats between rows: full lanes, and one for ghost cells
   Index plane;                ///< floats between levels
 
   double top() const { return face.back(); }

@@ -84,34 +84,35 @@ Pressure::Pressure(const Lattice& lattice, const Air& air)
   });
 }
 
-/// Computes the net outflow of mass from the cells of level k, kg/m2/s.
-void Pressure::diverge(const Wind& wind, Index k, float* out) const {
+/// Computes the net outflow of mass from the cells of level k, kg/m2/s; place(j) is its row j.
+template <class Place> void Pressure::diverge(const Wind& wind, Index k, const Place& place) const {
   const auto at = static_cast<std::size_t>(k);
   const float across = air_.cell[at] / static_cast<float>(lattice_.spacing);
   for (Index j = 0; j < lattice_.ny; ++j) {
     const float* u = wind.u.row(k, j);
     const Faces faces{
         u, u + 1, wind.v.row(k, j), wind.v.row(k, j + 1), wind.w.row(k, j), wind.w.row(k + 1, j)};
-    divergence_row(lattice_.nx, faces, across, air_.face[at + 1], air_.face[at],
-                   out + j * lattice_.nx);
+    divergence_row(lattice_.nx, faces, across, air_.face[at + 1], air_.face[at], place(j));
   }
 }
 
 double Pressure::divergence(const Wind& wind) const {
   return max_each(lattice_.nz, [&](Index k) {
     std::vector<float> out(static_cast<std::size_t>(size_));
-    diverge(wind, k, out.data());
+    diverge(wind, k, [&](Index j) { return out.data() + j * lattice_.nx; });
     return static_cast<double>(max_abs_row(lattice_.nx * lattice_.ny, out.data())) /
            static_cast<double>(air_.cell[static_cast<std::size_t>(k)]);
   });
 }
 
-/// Transforms level k to modes [nx][ny].
-void Pressure::transform(Index k) {
+/// Transforms the divergence of level k to modes [nx][ny].
+void Pressure::transform(const Wind& wind, Index k) {
   const Index nx = lattice_.nx, ny = lattice_.ny;
   auto &y = y_room_.local(), &x = x_room_.local();
+  const auto row = [&](Index j) { return y.data() + along_y_.row_offset(j); };
+  diverge(wind, k, row);
   for (Index j = 0; j < ny; ++j) {
-    along_y_.copy_row(level(k) + j * nx, y.data() + along_y_.row_offset(j));
+    along_y_.clear_rest(row(j));
   }
   along_y_.forward(y);
   turn(ny, nx, y.data(), along_y_.stride(), x.data(),
@@ -193,10 +194,7 @@ void Pressure::descend(Wind& wind) const {
 }
 
 void Pressure::project(Wind& wind) {
-  each(lattice_.nz, [&](Index k) {
-    diverge(wind, k, level(k));
-    transform(k);
-  });
+  each(lattice_.nz, [&](Index k) { transform(wind, k); });
   solve();
   each(lattice_.nz, [&](Index k) { transform_back(k); });
   descend(wind);

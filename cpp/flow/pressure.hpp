@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/huge_pages.hpp"
 #include "flow/cosine_transform.hpp"
 #include "flow/transport.hpp"
 
@@ -24,8 +25,8 @@ public:
   double divergence(const Wind& wind) const;
 
 private:
-  void diverge(const Wind& wind, Index k, float* out) const;
-  void transform(Index k);
+  template <class Place> void diverge(const Wind& wind, Index k, const Place& place) const;
+  void transform(const Wind& wind, Index k);
   void transform_back(Index k);
   void solve();
   void solve_modes(Index begin, Index end);
@@ -36,8 +37,8 @@ private:
   const Lattice& lattice_;
   const Air& air_;
   Index size_; ///< floats between levels of modes
-  std::vector<float> modes_;
-  std::vector<float> pivot_;         ///< [nz][modes] inverse pivots of the elimination
+  HugeVector<float> modes_;
+  HugeVector<float> pivot_;          ///< [nz][modes] inverse pivots of the elimination
   std::vector<float> below_, above_; ///< [nz] coefficients of the levels below and above
   CosineTransform along_x_, along_y_;
   tbb::enumerable_thread_specific<CosineTransform::Rows> x_room_, y_room_;

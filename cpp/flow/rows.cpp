@@ -14,17 +14,66 @@ namespace {
 
 constexpr float negligible = 1e-20F; // flushed to 0: near-denormal numbers lose digits and are slow
 
-inline float upwind_share(float flux, float low, float high) {
-  const float share = std::fabs(flux) / (flux > 0.0F ? low : high);
-  return share < 1.0F ? share : 1.0F;
+/// Face value between b and c, next to a and d: the upwind value plus half of a limited slope.
+inline float face_value(bool up, float courant, float a, float b, float c, float d) {
+  const float across = c - b, behind = up ? b - a : d - c;
+  const float x = std::fabs(across), y = std::fabs(behind);
+  const float smooth = ((2.0F - courant) * x + (1.0F + courant) * y) * (0.5F / 3.0F);
+  const float bound = x < y ? x : y;
+  const float half = smooth < bound ? smooth : bound;
+  const bool monotone =
+      (std::bit_cast<std::int32_t>(across) ^ std::bit_cast<std::int32_t>(behind)) >= 0;
+  const float rise = (1.0F - courant) * (monotone ? std::copysign(half, across) : 0.0F);
+  return up ? b + rise : c - rise;
 }
 
-inline float slope(float ahead, float behind, float courant) {
-  const float a = std::fabs(ahead), b = std::fabs(behind);
-  const float smooth = ((2.0F - courant) * a + (1.0F + courant) * b) * (1.0F / 3.0F);
-  const float bound = 2.0F * (a < b ? a : b);
-  const float size = smooth < bound ? smooth : bound;
-  return (ahead > 0.0F) == (behind > 0.0F) ? std::copysign(size, ahead) : 0.0F;
+/// Mean of a pair, or its one row.
+template <bool staggered> inline float mean(const float* a, const float* b, Index i) {
+  return staggered ? 0.5F * (a[i] + b[i]) : a[i];
+}
+
+template <bool staggered>
+[[gnu::always_inline]] inline void face(Index n, const AirRows& rows, const Pair& exchange,
+                                        float mixing, const Stencil& q, const FaceRows& faces) {
+  const auto [in_a, in_b] = rows.flux_before;
+  const auto [out_a, out_b] = rows.flux;
+  const auto [low_a, low_b] = rows.mass_before;
+  const auto [high_a, high_b] = rows.mass;
+  const auto [low2, low, high, high2] = q;
+  const auto [flux, inverse, value, mixed] = faces;
+  n = whole_lanes(n);
+#pragma GCC ivdep
+  for (Index i = 0; i < n; ++i) {
+    const float in = mean<staggered>(in_a, in_b, i), out = mean<staggered>(out_a, out_b, i);
+    const float before = mean<staggered>(low_a, low_b, i);
+    const bool up = out > 0.0F;
+    const float share = std::fabs(out) / (up ? before : mean<staggered>(high_a, high_b, i));
+    const float courant = share < 1.0F ? share : 1.0F;
+    inverse[i] = 1.0F / (before + (in - out));
+    if (staggered) {
+      flux[i] = out;
+    }
+    const float b = low[i], c = high[i];
+    value[i] = face_value(up, courant, low2[i], b, c, high2[i]);
+    mixed[i] = mean<staggered>(exchange.a, exchange.b, i) * mixing * (c - b);
+  }
+}
+
+template <bool rescales>
+[[gnu::always_inline]] inline void update(Index n, const CellRows& rows, float* __restrict q) {
+  const auto [in, out, low, high, mixed_low, mixed_high, inverse, mass, rest] = rows;
+  const float inverse_rest = 1.0F / rest;
+#pragma GCC ivdep
+  for (Index i = 0; i < n; ++i) {
+    const float here = q[i];
+    float there = here + (in[i] * (low[i] - here) - out[i] * (high[i] - here)) * inverse[i];
+    there = std::fabs(there) < negligible ? 0.0F : there;
+    there += (mixed_high[i] - mixed_low[i]) * inverse[i];
+    if (rescales) {
+      there += there * (((mass[i] - rest) + (in[i] - out[i])) * inverse_rest);
+    }
+    q[i] = there;
+  }
 }
 
 } // namespace
@@ -37,62 +86,51 @@ void scale_row(Index n, const float* __restrict from, float factor, float* __res
 }
 
 FIRETWIN_LANES
-void remaining_row(Index n, const float* __restrict mass, const float* __restrict in,
-                   const float* __restrict out, float* __restrict left) {
-  for (Index i = 0; i < n; ++i) {
-    left[i] = mass[i] + (in[i] - out[i]);
+void face_row(Index n, const AirRows& air, const Pair& exchange, float mixing, const Stencil& q,
+              const FaceRows& faces) {
+  if (air.flux.a == air.flux.b) {
+    face<false>(n, air, exchange, mixing, q, faces);
+  } else {
+    face<true>(n, air, exchange, mixing, q, faces);
   }
 }
 
 FIRETWIN_LANES
-void mean_row(Index n, const float* __restrict a, const float* __restrict b,
-              float* __restrict out) {
-  for (Index i = 0; i < n; ++i) {
-    out[i] = 0.5F * (a[i] + b[i]);
+void update_row(Index n, const CellRows& cells, float* q) {
+  const Index all = whole_lanes(n);
+  float kept[lanes];
+  std::copy_n(q + all - lanes, lanes, kept);
+  if (cells.mass) {
+    update<true>(all, cells, q);
+  } else {
+    update<false>(all, cells, q);
   }
+  std::copy(kept + lanes - (all - n), kept + lanes, q + n);
 }
 
 FIRETWIN_LANES
-void courant_row(Index n, const float* __restrict flux, const float* __restrict low,
-                 const float* __restrict high, float* __restrict courant) {
-  for (Index i = 0; i < n; ++i) {
-    courant[i] = upwind_share(flux[i], low[i], high[i]);
+void drain_row(Index n, const std::array<const float*, 2>& in,
+               const std::array<const float*, 2>& out, float rest, float* __restrict first,
+               float* __restrict second, KeptAir& kept) {
+  const float* __restrict in1 = in[0], * __restrict in2 = in[1];
+  const float* __restrict out1 = out[0], * __restrict out2 = out[1];
+  const Index all = whole_lanes(n);
+#pragma GCC ivdep
+  for (Index i = 0; i < all; ++i) {
+    first[i] = rest + (in1[i] - out1[i]);
+    second[i] = first[i] + (in2[i] - out2[i]);
   }
-}
-
-FIRETWIN_LANES
-void face_row(Index n, const float* __restrict flux, const float* __restrict courant,
-              const Stencil& q, float* __restrict value) {
-  const float* __restrict low2 = q.low2;
-  const float* __restrict low = q.low;
-  const float* __restrict high = q.high;
-  const float* __restrict high2 = q.high2;
-  for (Index i = 0; i < n; ++i) {
-    const float a = low2[i], b = low[i], c = high[i], d = high2[i], share = courant[i];
-    const bool up = flux[i] > 0.0F;
-    const float here = up ? b : c;
-    const float ahead = (up ? c : b) - here;
-    const float behind = here - (up ? a : d);
-    value[i] = here + 0.5F * (1.0F - share) * slope(ahead, behind, share);
-  }
-}
-
-FIRETWIN_LANES
-void inverse_row(Index n, const float* __restrict mass, const float* __restrict in,
-                 const float* __restrict out, float* __restrict inverse) {
-  for (Index i = 0; i < n; ++i) {
-    inverse[i] = 1.0F / (mass[i] + (in[i] - out[i]));
-  }
-}
-
-FIRETWIN_LANES
-void advect_row(Index n, const float* __restrict in, const float* __restrict out,
-                const float* __restrict low, const float* __restrict high,
-                const float* __restrict inverse, float* __restrict q) {
-  for (Index i = 0; i < n; ++i) {
-    const float here = q[i];
-    const float there = here + (in[i] * (low[i] - here) - out[i] * (high[i] - here)) * inverse[i];
-    q[i] = std::fabs(there) < negligible ? 0.0F : there;
+  std::fill(first + n, first + all, rest);
+  std::fill(second + n, second + all, rest);
+  for (Index i = 0; i < all; i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const float once = first[i + static_cast<Index>(lane)],
+                  twice = second[i + static_cast<Index>(lane)];
+      const float share = twice / once;
+      kept.least_first[lane] = once < kept.least_first[lane] ? once : kept.least_first[lane];
+      kept.least_second[lane] = share < kept.least_second[lane] ? share : kept.least_second[lane];
+      kept.most_second[lane] = twice > kept.most_second[lane] ? twice : kept.most_second[lane];
+    }
   }
 }
 
@@ -107,32 +145,6 @@ void exchange_row(Index n, const std::array<const float*, 2>& strength,
     const float cd = c[i] < d[i] ? c[i] : d[i], ef = e[i] < f[i] ? e[i] : f[i];
     const float bound = most * (cd < ef ? cd : ef), mixed = 0.5F * (a[i] + b[i]) * factor;
     out[i] = mixed < bound ? mixed : bound;
-  }
-}
-
-FIRETWIN_LANES
-void mixing_flux_row(Index n, const float* __restrict exchange, float factor,
-                     const float* __restrict low, const float* __restrict high,
-                     float* __restrict mixed) {
-  for (Index i = 0; i < n; ++i) {
-    mixed[i] = exchange[i] * factor * (high[i] - low[i]);
-  }
-}
-
-FIRETWIN_LANES
-void mix_row(Index n, const float* __restrict low, const float* __restrict high,
-             const float* __restrict inverse, float* __restrict q) {
-  for (Index i = 0; i < n; ++i) {
-    q[i] += (high[i] - low[i]) * inverse[i];
-  }
-}
-
-FIRETWIN_LANES
-void rescale_row(Index n, const float* __restrict mass, const float* __restrict in,
-                 const float* __restrict out, float base, float* __restrict q) {
-  const float inverse = 1.0F / base;
-  for (Index i = 0; i < n; ++i) {
-    q[i] += q[i] * (((mass[i] - base) + (in[i] - out[i])) * inverse);
   }
 }
 
@@ -208,24 +220,6 @@ bool has_nonzero_row(Index n, const float* q) {
     bits |= std::bit_cast<std::int32_t>(q[i]);
   }
   return (bits & 0x7fffffff) != 0;
-}
-
-FIRETWIN_LANES
-float min_ratio_row(Index n, const float* part, const float* whole) {
-  float least[lanes];
-  std::fill_n(least, lanes, part[0] / whole[0]);
-  Index i = 0;
-  for (; i + lanes <= n; i += lanes) {
-    for (Index lane = 0; lane < lanes; ++lane) {
-      const float share = part[i + lane] / whole[i + lane];
-      least[lane] = share < least[lane] ? share : least[lane];
-    }
-  }
-  for (; i < n; ++i) {
-    const float share = part[i] / whole[i];
-    least[0] = share < least[0] ? share : least[0];
-  }
-  return *std::min_element(least, least + lanes);
 }
 
 double sum_row(Index n, const float* q) {

@@ -8,6 +8,20 @@
 /// Functions that only write a row may process complete SIMD lanes of it.
 namespace firetwin::flow {
 
+/// Rows whose mean is the row at a position of the staggered grid; at cell centres one row twice.
+struct Pair {
+  const float* a;
+  const float* b;
+};
+
+/// Rows of air around n faces: of the faces and cells themselves, and of those one place before.
+struct AirRows {
+  Pair flux_before;
+  Pair flux;
+  Pair mass_before;
+  Pair mass;
+};
+
 /// The four rows next to n faces: two below, two above. They may overlap each other.
 struct Stencil {
   const float* low2;
@@ -16,49 +30,61 @@ struct Stencil {
   const float* high2;
 };
 
+/// Results at n faces.
+struct FaceRows {
+  float* flux;    ///< air that passes; not written if the pair of fluxes is one row
+  float* inverse; ///< 1 / (mass + in - out) of the cells before the faces
+  float* value;   ///< of q
+  float* mixed;   ///< eddy fluxes of q
+};
+
+/// Rows of n cells: air that passes their lower and upper faces, face values, and eddy fluxes.
+struct CellRows {
+  const float* in;
+  const float* out;
+  const float* low;
+  const float* high;
+  const float* mixed_low;
+  const float* mixed_high;
+  const float* inverse; ///< 1 / air after the sweep
+  const float* mass;    ///< air before the sweep; null: not rescaled
+  float rest;           ///< air to which q is rescaled
+};
+
 /// out = from x factor
 void scale_row(Index n, const float* from, float factor, float* out);
-
-/// left = mass + in - out
-void remaining_row(Index n, const float* mass, const float* in, const float* out, float* left);
-
-/// Computes the mean of two rows.
-void mean_row(Index n, const float* a, const float* b, float* out);
-
-/// Computes Courant numbers of faces: the share of the upwind cell's air that passes, at most 1.
-/// `low` and `high` are the masses of the cells below and above the faces.
-void courant_row(Index n, const float* flux, const float* low, const float* high, float* courant);
 
 /// Computes face values: the upwind value plus a slope, third order in space and time for smooth
 /// fields, limited to 2 (q - q_upwind) on both sides so that no new extremes appear (Arora and Roe
 /// 1997, "A well-behaved TVD limiter for high-resolution calculations of unsteady flow", J. Comput.
-/// Phys. 132; the bounds are the MC limiter's).
-void face_row(Index n, const float* flux, const float* courant, const Stencil& q, float* value);
+/// Phys. 132; the bounds are the MC limiter's). Computes also the air that passes, and the eddy
+/// fluxes: exchange x mixing x (q above - q below). One loop hides its divisions. Processes full
+/// lanes.
+void face_row(Index n, const AirRows& air, const Pair& exchange, float mixing, const Stencil& q,
+              const FaceRows& faces);
 
-/// 1 / (mass + in - out)
-void inverse_row(Index n, const float* mass, const float* in, const float* out, float* inverse);
+/// Updates q by advection: `in` enters with values `low` through the lower faces, `out` leaves with
+/// values `high` through the upper ones. A constant field stays constant, bit for bit. Then adds
+/// eddy fluxes, and rescales q to q x (mass + in - out) / rest, so that q x rest is q x air.
+void update_row(Index n, const CellRows& cells, float* q);
+
+/// Air that cells keep, by lane.
+struct KeptAir {
+  std::array<float, lanes> least_first;  ///< after one direction
+  std::array<float, lanes> least_second; ///< after the second direction / after the first
+  std::array<float, lanes> most_second;
+};
+
+/// Computes the air of cells after one direction and after two: rest + in - out. Processes full
+/// lanes; cells after the n-th one keep `rest`.
+void drain_row(Index n, const std::array<const float*, 2>& in,
+               const std::array<const float*, 2>& out, float rest, float* first, float* second,
+               KeptAir& kept);
 
 /// Computes the air that eddies exchange between two rows of cells with eddy viscosities K: their
 /// mean x factor, at most the share `most` of the least of `air`.
 void exchange_row(Index n, const std::array<const float*, 2>& strength,
                   const std::array<const float*, 4>& air, float factor, float most, float* out);
-
-/// Computes the eddy flux through each face: exchange x (q above - q below) x factor.
-void mixing_flux_row(Index n, const float* exchange, float factor, const float* low,
-                     const float* high, float* mixed);
-
-/// Updates q by eddy fluxes: `high` enters through the upper faces, `low` leaves through the lower
-/// ones.
-void mix_row(Index n, const float* low, const float* high, const float* inverse, float* q);
-
-/// Updates q by advection: `in` enters with values `low` through the lower faces, `out` leaves with
-/// values `high` through the upper ones. A constant field stays constant, bit for bit.
-void advect_row(Index n, const float* in, const float* out, const float* low, const float* high,
-                const float* inverse, float* q);
-
-/// Computes q x (mass + in - out) / base, so that q x base is the former q x air mass.
-void rescale_row(Index n, const float* mass, const float* in, const float* out, float base,
-                 float* q);
 
 /// out = (right - left) x a + (back - front) x b + above x c - below x d
 struct Faces {
@@ -89,9 +115,6 @@ bool has_nonzero_row(Index n, const float* q);
 
 /// Returns the largest |q| (NaN if a value is NaN).
 float max_abs_row(Index n, const float* q);
-
-/// Returns the smallest part / whole.
-float min_ratio_row(Index n, const float* part, const float* whole);
 
 /// Sums a row in float64.
 double sum_row(Index n, const float* q);

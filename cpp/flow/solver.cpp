@@ -107,7 +107,8 @@ void Solver::initialize() {
       state_.wind.v.fill_level(k, ambient_.wind()[static_cast<std::size_t>(k)][1]);
     }
   }
-  enforce_boundaries();
+  fill_ghost_cells();
+  pressure_.project(state_.wind);
   mass_.initial = airborne();
 }
 
@@ -193,6 +194,7 @@ void Solver::add_to_level(const Deposit& deposit, double dt, Index k) {
       const auto add = [&](Field& field, double amount) {
         float& value = field.row(k, j)[i];
         value = static_cast<float>(static_cast<double>(value) + amount);
+        field.empty(k, j) = 0;
       };
       if (deposit.heat[column] > 0.0) {
         add(state_.theta, warming * deposit.heat[column]);
@@ -207,23 +209,11 @@ void Solver::add_to_level(const Deposit& deposit, double dt, Index k) {
   }
 }
 
-/// Ages the smoke, and adds the smoke of sources.
-void Solver::add_smoke(double dt) {
-  each(lattice_.nz, [&](Index k) {
-    for (Index j = 0; j < lattice_.ny; ++j) {
-      age_row(lattice_.nx, state_.smoke.row(k, j), static_cast<float>(dt),
-              static_cast<float>(time_ + dt), state_.age.row(k, j));
-    }
-  });
-  if (sources_.position.empty()) {
-    return;
-  }
-  const Deposit now = deposit(sources_, lattice_, corner_, settings_.gusts, time_ + 0.5 * dt);
-  each(lattice_.nz, [&](Index k) {
-    if (shares_[static_cast<std::size_t>(k)] > 0.0) {
-      add_to_level(now, dt, k);
-    }
-  });
+/// Ages the smoke, adds what sources release, and computes buoyancy. @return airborne smoke, kg
+double Solver::add_sources(double dt) {
+  const bool burns = !sources_.position.empty();
+  const Deposit now =
+      burns ? deposit(sources_, lattice_, corner_, settings_.gusts, time_ + 0.5 * dt) : Deposit{};
   double heat = 0.0, smoke = 0.0, warmed = 0.0;
   for (std::size_t i = 0; i < now.heat.size(); ++i) {
     heat += now.heat[i];
@@ -235,41 +225,69 @@ void Solver::add_smoke(double dt) {
   mass_.emitted += smoke * dt;
   heat_.given += heat * dt;
   heat_.warmed += heat * dt * warmed;
+  return sum_each(lattice_.nz, [&](Index k) {
+    for (Index j = 0; j < lattice_.ny; ++j) {
+      if (state_.smoke.empty(k, j) && state_.age.empty(k, j)) {
+        continue;
+      }
+      state_.age.empty(k, j) = 0;
+      age_row(lattice_.nx, state_.smoke.row(k, j), static_cast<float>(dt),
+              static_cast<float>(time_ + dt), state_.age.row(k, j));
+    }
+    if (burns && shares_[static_cast<std::size_t>(k)] > 0.0) {
+      add_to_level(now, dt, k);
+    }
+    buoyancy_.compute_force(state_, k);
+    return airborne(k);
+  });
 }
 
-/// Applies boundary conditions, fills ghost cells and projects the wind.
-void Solver::enforce_boundaries() {
-  boundaries_.fill_ghost_cells(state_, outside_.get());
+/// Applies buoyancy and boundary conditions, level by level while it is in the cache, and projects
+/// the wind.
+void Solver::accelerate(double dt) {
+  each(lattice_.nz, [&](Index k) {
+    buoyancy_.push(state_, dt, k);
+    boundaries_.relax(state_, outside_.get(), dt, k);
+    boundaries_.fill_ghost_cells(state_, outside_.get(), k);
+  });
+  boundaries_.close(state_.wind);
   pressure_.project(state_.wind);
+}
+
+void Solver::fill_ghost_cells() {
+  state_.smoke.clear_empty();
+  state_.age.clear_empty();
+  each(lattice_.nz, [&](Index k) { boundaries_.fill_ghost_cells(state_, outside_.get(), k); });
+  boundaries_.close(state_.wind);
 }
 
 void Solver::step(double dt) {
   check_above_zero(dt, "dt");
   follow_outer(dt);
   carry(dt);
-  add_smoke(dt);
-  buoyancy_.push(state_, dt);
-  boundaries_.relax(state_, outside_.get(), dt);
-  enforce_boundaries();
+  const double is = add_sources(dt);
+  accelerate(dt);
   time_ += dt;
   ++steps_;
   const double should = mass_.initial + mass_.emitted + mass_.entered + mass_.rounding - mass_.left;
-  const double is = airborne();
   if (!std::isfinite(is) || !std::isfinite(courant())) {
     throw Error("the flow has diverged to infinity; use a shorter time step");
   }
   mass_.rounding += is - should;
 }
 
+/// Airborne smoke of level k, kg.
+double Solver::airborne(Index k) const {
+  double sum = 0.0;
+  for (Index j = 0; j < lattice_.ny; ++j) {
+    sum += state_.smoke.empty(k, j) ? 0.0 : sum_row(lattice_.nx, state_.smoke.row(k, j));
+  }
+  return sum * static_cast<double>(ambient_.air().cell[static_cast<std::size_t>(k)]) *
+         (lattice_.spacing * lattice_.spacing);
+}
+
 double Solver::airborne() const {
-  const double area = lattice_.spacing * lattice_.spacing;
-  return sum_each(lattice_.nz, [&](Index k) {
-    double sum = 0.0;
-    for (Index j = 0; j < lattice_.ny; ++j) {
-      sum += sum_row(lattice_.nx, state_.smoke.row(k, j));
-    }
-    return sum * static_cast<double>(ambient_.air().cell[static_cast<std::size_t>(k)]) * area;
-  });
+  return sum_each(lattice_.nz, [&](Index k) { return airborne(k); });
 }
 
 MassBudget Solver::mass() const {

@@ -111,7 +111,7 @@ public:
   /// State to restore a checkpoint into; call `fill_ghost_cells()` afterwards.
   State& mutable_state() { return state_; }
   void restore(const Checkpoint& checkpoint, const std::vector<std::array<double, 2>>& wind);
-  void fill_ghost_cells() { boundaries_.fill_ghost_cells(state_, outside_.get()); }
+  void fill_ghost_cells();
 
 private:
   Solver(Domain domain, Profile profile, const SolverSettings& settings,
@@ -119,9 +119,10 @@ private:
   void initialize();
   void follow_outer(double dt);
   void carry(double dt);
-  void add_smoke(double dt);
-  void enforce_boundaries();
+  double add_sources(double dt);
+  void accelerate(double dt);
   void add_to_level(const Deposit& deposit, double dt, Index k);
+  double airborne(Index k) const;
   double airborne() const;
 
   Lattice lattice_;

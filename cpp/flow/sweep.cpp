@@ -2,9 +2,11 @@
 
 #include "flow/rows.hpp"
 
+#include <oneapi/tbb/cache_aligned_allocator.h>
+
 #include <algorithm>
 #include <array>
-#include <memory>
+#include <vector>
 
 namespace firetwin::flow {
 namespace {
@@ -14,79 +16,82 @@ namespace {
 class RowScratch {
 public:
   explicit RowScratch(Index length)
-      : length_(whole_lanes(length + 2)),
-        memory_(std::make_unique_for_overwrite<float[]>(
-            static_cast<std::size_t>(length_ * (11 + 8 * static_cast<Index>(max_fields)) + 2))) {}
+      : length_(length + lanes),
+        memory_(static_cast<std::size_t>(length_ * (9 + 8 * static_cast<Index>(max_fields)))) {}
   float* flux(Index f) { return slot(f & 3); }
-  float* mass(Index p) { return slot(4 + (p & 3)); }
+  float* inverse(Index p) { return slot(4 + (p & 3)); }
+  float* zeros() { return slot(8); }
   float* value(std::size_t field, Index f) {
-    return slot(11 + 8 * static_cast<Index>(field) + (f & 3));
+    return slot(9 + 8 * static_cast<Index>(field) + (f & 3));
   }
   float* mixed(std::size_t field, Index f) {
-    return slot(15 + 8 * static_cast<Index>(field) + (f & 3));
+    return slot(13 + 8 * static_cast<Index>(field) + (f & 3));
   }
-  float* exchange() { return slot(10); }
-  float* courant() { return slot(8); }
-  float* inverse() { return slot(9); }
 
 private:
-  /// Each row has room for one number before it: the mass of the cell before the first.
-  float* slot(Index i) { return memory_.get() + i * length_ + 1; }
+  float* slot(Index i) { return memory_.data() + i * length_; }
 
   Index length_;
-  std::unique_ptr<float[]> memory_;
+  std::vector<float, tbb::cache_aligned_allocator<float>> memory_;
 };
 
 void add(BoundaryFlux& crossed, double inwards) {
   (inwards > 0.0 ? crossed.in : crossed.out) += inwards > 0.0 ? inwards : -inwards;
 }
 
-/// Returns a row of a cell or face field at the sweep's position on the staggered grid: the row
-/// itself, or the mean of neighbours in `room`, in full lanes.
-const float* row_at_place(const Sweep& s, const Field& field, Index k, Index j, Index first,
-                          Index n, float* room) {
-  const float* here = field.row(k, j) + first;
-  if (s.place == Place::middle) {
-    return here;
+/// Returns whether row j of level k has numbers other than 0, ghost cells excepted.
+bool has_content(const Sweep& s, Field& field, Index k, Index j) {
+  if (j < 0 || j >= s.lattice.ny) {
+    return has_nonzero_row(s.lattice.nx, field.row(k, j));
   }
-  const float* before = s.place == Place::x   ? here - 1
-                        : s.place == Place::y ? field.row(k, j - 1) + first
-                                              : field.row(k - 1, j) + first;
-  mean_row(whole_lanes(n), before, here, room);
-  return room;
+  if (!field.empty(k, j)) {
+    field.empty(k, j) = !has_nonzero_row(s.lattice.nx, field.row(k, j));
+  }
+  return !field.empty(k, j);
+}
+
+/// Returns the rows whose mean is a row of a cell or face field at the sweep's position on the
+/// staggered grid.
+Pair pair_at_place(const Sweep& s, const Field& field, Index k, Index j, Index first) {
+  const float* here = field.row(k, j) + first;
+  return {s.place == Place::x   ? here - 1
+          : s.place == Place::y ? field.row(k, j - 1) + first
+          : s.place == Place::z ? field.row(k - 1, j) + first
+                                : here,
+          here};
+}
+
+/// Returns the flux of a pair: its one row, or `mean`.
+const float* flux_of(const Pair& pair, const float* mean) {
+  return pair.a == pair.b ? pair.a : mean;
 }
 
 void along_x(const Sweep& s, Index k, Index j, RowScratch& scratch,
              std::span<BoundaryFlux> crossed) {
-  const Index first = s.place == Place::x ? 1 : 0;
-  const Index n = s.lattice.nx - first, faces = whole_lanes(n + 1);
-  const float* flux = row_at_place(s, s.flux, k, j, first, n + 1, scratch.flux(0));
-  const float* mass = row_at_place(s, s.mass, k, j, first - 1, n + 2, scratch.mass(0) - 1) + 1;
-  courant_row(faces, flux, mass - 1, mass, scratch.courant());
-  inverse_row(faces, mass, flux, flux + 1, scratch.inverse());
-  const float* exchange =
-      s.exchange ? row_at_place(s, *s.exchange, k, j, first, n + 1, scratch.exchange()) : nullptr;
+  const Index first = s.place == Place::x ? 1 : 0, n = s.lattice.nx - first;
+  const auto [flux_a, flux_b] = pair_at_place(s, s.flux, k, j, first);
+  const auto [mass_a, mass_b] = pair_at_place(s, s.mass, k, j, first);
+  const Pair exchange = pair_at_place(s, s.exchange, k, j, first);
+  const AirRows air{
+      {flux_a - 1, flux_b - 1}, {flux_a, flux_b}, {mass_a - 1, mass_b - 1}, {mass_a, mass_b}};
+  const float* flux = flux_of(air.flux, scratch.flux(0));
   for (std::size_t m = 0; m < s.fields.size(); ++m) {
     float* q = s.fields[m]->row(k, j) + first;
-    float* value = scratch.value(m, 0);
-    float* mixed = scratch.mixed(m, 0);
-    if (m < s.sparse && !has_nonzero_row(n + 2 * halo, q - halo)) {
+    if (m < s.sparse && q[-2] == 0.0F && q[-1] == 0.0F && q[n] == 0.0F && q[n + 1] == 0.0F &&
+        !has_content(s, *s.fields[m], k, j)) {
       continue;
     }
-    face_row(faces, flux, scratch.courant(), {q - 2, q - 1, q, q + 1}, value);
-    if (exchange) {
-      mixing_flux_row(faces, exchange, s.mixing, q - 1, q, mixed);
-    }
-    advect_row(n, flux, flux + 1, value, value + 1, scratch.inverse(), q);
-    if (exchange) {
-      mix_row(n, mixed, mixed + 1, scratch.inverse(), q);
-    }
-    if (m < s.rescaled && !s.rest.empty()) {
-      rescale_row(n, mass, flux, flux + 1, s.rest[static_cast<std::size_t>(k)], q);
-    }
+    const FaceRows faces{scratch.flux(0), scratch.inverse(0), scratch.value(m, 0),
+                         scratch.mixed(m, 0)};
+    face_row(n + 1, air, exchange, s.mixing, {q - 2, q - 1, q, q + 1}, faces);
+    update_row(n,
+               {flux, flux + 1, faces.value, faces.value + 1, faces.mixed, faces.mixed + 1,
+                faces.inverse + 1, m < s.rescaled ? mass_b : nullptr, s.rest[k]},
+               q);
+    s.fields[m]->empty(k, j) = 0;
     if (!crossed.empty()) {
-      add(crossed[m], static_cast<double>(flux[0]) * static_cast<double>(value[0]));
-      add(crossed[m], -static_cast<double>(flux[n]) * static_cast<double>(value[n]));
+      add(crossed[m], static_cast<double>(flux[0]) * static_cast<double>(faces.value[0]));
+      add(crossed[m], -static_cast<double>(flux[n]) * static_cast<double>(faces.value[n]));
     }
   }
 }
@@ -96,8 +101,7 @@ void along_x(const Sweep& s, Index k, Index j, RowScratch& scratch,
 class RollingSweep {
 public:
   RollingSweep(const Sweep& sweep, Index across, RowScratch& scratch)
-      : s_(sweep), across_(across), scratch_(scratch), first_(sweep.place == Place::x ? 1 : 0),
-        n_(sweep.lattice.nx - first_), lanes_(whole_lanes(n_)),
+      : s_(sweep), across_(across), scratch_(scratch), n_(sweep.lattice.nx),
         end_(sweep.axis == Axis::y ? sweep.lattice.ny : sweep.lattice.nz),
         begin_((sweep.axis == Axis::y && sweep.place == Place::y) ||
                        (sweep.axis == Axis::z && sweep.place == Place::z)
@@ -105,7 +109,6 @@ public:
                    : 0) {}
 
   void run(std::span<BoundaryFlux> crossed) {
-    take_mass(begin_ - 1);
     for (Index p = begin_ - 2; p <= begin_; ++p) {
       check_nonzero(p);
     }
@@ -130,16 +133,20 @@ private:
 
   static std::size_t at(Index p) { return static_cast<std::size_t>(p & 3); }
 
-  void take_mass(Index p) {
+  Pair pair(const Field& field, Index f) const {
+    return pair_at_place(s_, field, level(f, s_.flux.levels()), line(f), 0);
+  }
+
+  Pair mass(Index p) const {
     const Index lowest = s_.place == Place::z ? 1 : 0;
-    const Index k = std::max(level(p, s_.lattice.nz), lowest);
-    mass_[at(p)] = row_at_place(s_, s_.mass, k, line(p), first_, n_, scratch_.mass(p));
+    return pair_at_place(s_, s_.mass, std::max(level(p, s_.lattice.nz), lowest), line(p), 0);
   }
 
   /// Records whether a row has nonzero values before its update.
   void check_nonzero(Index p) {
     for (std::size_t m = 0; m < s_.sparse; ++m) {
-      nonzero_[m][at(p)] = has_nonzero_row(n_, row(m, p));
+      Field& field = *s_.fields[m];
+      nonzero_[m][at(p)] = has_content(s_, field, level(p, field.levels()), line(p));
     }
   }
 
@@ -149,55 +156,51 @@ private:
   }
 
   void open_face(Index f) {
-    take_mass(f);
     check_nonzero(f + 1);
-    const float* flux = row_at_place(s_, s_.flux, level(f, s_.flux.levels()), line(f), first_, n_,
-                                     scratch_.flux(f));
-    flux_[at(f)] = flux;
-    courant_row(lanes_, flux, mass_[at(f - 1)], mass_[at(f)], scratch_.courant());
-    const float* exchange = nullptr;
-    if (s_.exchange) {
-      exchange = row_at_place(s_, *s_.exchange, level(f, s_.flux.levels()), line(f), first_, n_,
-                              scratch_.exchange());
-    }
+    const AirRows air{pair(s_.flux, std::max(f - 1, begin_)), pair(s_.flux, f), mass(f - 1),
+                      mass(f)};
+    const Pair exchange = pair(s_.exchange, f);
+    flux_[at(f)] = flux_of(air.flux, scratch_.flux(f));
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
-      const float *low = row(m, f - 1), *high = row(m, f);
       carries_[m][at(f)] = !nothing_beside(m);
-      if (!carries_[m][at(f)]) {
-        std::fill_n(scratch_.value(m, f), lanes_, 0.0F);
-        std::fill_n(scratch_.mixed(m, f), lanes_, 0.0F);
-        continue;
-      }
-      face_row(lanes_, flux, scratch_.courant(), {row(m, f - 2), low, high, row(m, f + 1)},
-               scratch_.value(m, f));
-      if (exchange) {
-        mixing_flux_row(lanes_, exchange, s_.mixing, low, high, scratch_.mixed(m, f));
+      if (carries_[m][at(f)]) {
+        face_row(n_, air, exchange, s_.mixing,
+                 {row(m, f - 2), row(m, f - 1), row(m, f), row(m, f + 1)},
+                 {scratch_.flux(f), scratch_.inverse(f - 1), scratch_.value(m, f),
+                  scratch_.mixed(m, f)});
       }
     }
   }
 
   void close_row(Index p) {
-    const float *in = flux_[at(p)], *out = flux_[at(p + 1)], *mass = mass_[at(p)];
-    inverse_row(lanes_, mass, in, out, scratch_.inverse());
+    const Index k = level(p, s_.lattice.nz);
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
       if (!carries_[m][at(p)] && !carries_[m][at(p + 1)]) {
         continue;
       }
+      const auto faces = [&](Index f, float* row) {
+        return carries_[m][at(f)] ? row : scratch_.zeros();
+      };
       float* q = row(m, p);
-      advect_row(n_, in, out, scratch_.value(m, p), scratch_.value(m, p + 1), scratch_.inverse(),
+      const float first = q[0];
+      update_row(n_,
+                 {flux_[at(p)], flux_[at(p + 1)], faces(p, scratch_.value(m, p)),
+                  faces(p + 1, scratch_.value(m, p + 1)), faces(p, scratch_.mixed(m, p)),
+                  faces(p + 1, scratch_.mixed(m, p + 1)), scratch_.inverse(p),
+                  m < s_.rescaled ? mass(p).b : nullptr, s_.rest[k]},
                  q);
-      if (s_.exchange) {
-        mix_row(n_, scratch_.mixed(m, p), scratch_.mixed(m, p + 1), scratch_.inverse(), q);
+      if (s_.place == Place::x) {
+        q[0] = first; // a face of the domain
       }
-      if (m < s_.rescaled && !s_.rest.empty()) {
-        const auto k = static_cast<std::size_t>(level(p, s_.lattice.nz));
-        rescale_row(n_, mass, in, out, s_.rest[k], q);
-      }
+      s_.fields[m]->empty(level(p, s_.fields[m]->levels()), line(p)) = 0;
     }
   }
 
   void count(Index f, std::span<BoundaryFlux> crossed) {
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
+      if (!carries_[m][at(f)]) {
+        continue;
+      }
       const float *flux = flux_[at(f)], *value = scratch_.value(m, f);
       for (Index i = 0; i < n_; ++i) {
         const double out = static_cast<double>(flux[i]) * static_cast<double>(value[i]);
@@ -208,38 +211,52 @@ private:
 
   float* row(std::size_t m, Index p) {
     Field& field = *s_.fields[m];
-    return field.row(level(p, field.levels()), line(p)) + first_;
+    return field.row(level(p, field.levels()), line(p));
   }
 
   const Sweep& s_;
   Index across_;
   RowScratch& scratch_;
-  Index first_;                                           ///< column
   Index n_;                                               ///< columns
-  Index lanes_;                                           ///< n_ rounded up to full lanes
   Index end_;                                             ///< end of the updated rows
   Index begin_;                                           ///< first updated row
-  std::array<const float*, 4> flux_{}, mass_{};           ///< last four faces and rows
+  std::array<const float*, 4> flux_{};                    ///< of the last four faces
   std::array<std::array<bool, 4>, max_fields> nonzero_{}; ///< in the last four rows
   std::array<std::array<bool, 4>, max_fields> carries_{}; ///< last four faces: nonzero flux
 };
 
 } // namespace
 
-void sweep_level(const Sweep& sweep, Index k, std::span<BoundaryFlux> crossed) {
-  RowScratch scratch(sweep.lattice.stride);
-  if (sweep.axis == Axis::y) {
-    RollingSweep(sweep, k, scratch).run(crossed);
+void sweep_level(std::span<const Sweep> sweeps, Index k, std::span<BoundaryFlux> crossed) {
+  RowScratch scratch(sweeps[0].lattice.stride);
+  const auto counted = [&](const Sweep& sweep) {
+    return sweep.place == Place::middle ? crossed : std::span<BoundaryFlux>();
+  };
+  if (k == 0) {
+    sweeps = sweeps.first(sweeps.size() - 1); // w is 0 there
+  }
+  if (sweeps[0].axis == Axis::y) {
+    for (const Sweep& sweep : sweeps) {
+      RollingSweep(sweep, k, scratch).run(counted(sweep));
+    }
     return;
   }
-  for (Index j = sweep.place == Place::y ? 1 : 0; j < sweep.lattice.ny; ++j) {
-    along_x(sweep, k, j, scratch, crossed);
+  for (Index j = 0; j < sweeps[0].lattice.ny; ++j) {
+    for (const Sweep& sweep : sweeps) {
+      if (j > 0 || sweep.place != Place::y) {
+        along_x(sweep, k, j, scratch, counted(sweep));
+      }
+    }
   }
 }
 
-void sweep_columns(const Sweep& sweep, Index j) {
-  RowScratch scratch(sweep.lattice.stride);
-  RollingSweep(sweep, j, scratch).run({});
+void sweep_columns(std::span<const Sweep> sweeps, Index j) {
+  RowScratch scratch(sweeps[0].lattice.stride);
+  for (const Sweep& sweep : sweeps) {
+    if (j > 0 || sweep.place != Place::y) {
+      RollingSweep(sweep, j, scratch).run({});
+    }
+  }
 }
 
 } // namespace firetwin::flow

@@ -28,26 +28,23 @@ struct Sweep {
   Place place;
   const Field& flux; ///< through cell faces across `axis`, kg per m2 of the cell's ground
   const Field& mass; ///< of cells before this sweep, kg/m2
-  /// For the last direction: reference air mass of a cell, kg/m2 by level. Otherwise empty.
-  std::span<const float> rest;
-  /// Advected fields, at most `max_fields`, and the number of fields that are rescaled to `rest`.
-  std::span<Field* const> fields;
-  std::size_t rescaled = 0;
+  const float* rest; ///< [nz] reference air mass of a cell, kg/m2
+  std::span<Field* const> fields; ///< advected, at most `max_fields`
+  /// In the last direction: number of leading fields that are rescaled to `rest`. Otherwise 0.
+  std::size_t rescaled;
   /// Number of leading fields that are 0 in most of the domain; their zero rows are skipped.
-  std::size_t sparse = 0;
-  /// Air that eddies exchange through the same faces, kg/m2, or null, and a factor on it.
-  const Field* exchange = nullptr;
-  float mixing = 1.0F;
+  std::size_t sparse;
+  const Field& exchange; ///< air that eddies exchange through the same faces, kg/m2
+  float mixing;          ///< factor on `exchange`
 };
 
 inline constexpr std::size_t max_fields = 4;
 
-/// Sweeps along x or y within level k.
-/// @param crossed [fields] boundary fluxes are added to it, for values at cell centres; may be
-/// empty
-void sweep_level(const Sweep& sweep, Index k, std::span<BoundaryFlux> crossed);
+/// Sweeps fields at several places, the last of them z, along x or y within level k.
+/// @param crossed [fields] boundary fluxes of the fields at cell centres are added to it
+void sweep_level(std::span<const Sweep> sweeps, Index k, std::span<BoundaryFlux> crossed);
 
-/// Sweeps along z in row j.
-void sweep_columns(const Sweep& sweep, Index j);
+/// Sweeps fields at several places along z in row j.
+void sweep_columns(std::span<const Sweep> sweeps, Index j);
 
 } // namespace firetwin::flow

@@ -17,11 +17,6 @@ constexpr int most_substeps = 1000;
 constexpr float most_mixing =
     0.15F; // share of the air of the smaller cell at a face; three times that for scalars
 
-/// Returns the number of leading sparse fields: smoke and its age come first.
-std::size_t sparse(Place place) {
-  return place == Place::middle ? 2 : 0;
-}
-
 } // namespace
 
 Transport::Transport(const Lattice& lattice, const Air& air)
@@ -41,37 +36,30 @@ const Field& Transport::flux(Axis axis) const {
   return axis == Axis::x ? x_ : axis == Axis::y ? y_ : z_;
 }
 
-const Field* Transport::exchange(Axis axis) const {
-  return !mixes_ ? nullptr : axis == Axis::x ? &mix_x_ : axis == Axis::y ? &mix_y_ : &mix_z_;
+const Field& Transport::exchange(Axis axis) const {
+  return axis == Axis::x ? mix_x_ : axis == Axis::y ? mix_y_ : mix_z_;
 }
 
-/// Computes eddy exchange. It is 0 through the domain's faces, and limited by the air that is left
-/// where one direction has drained a cell.
-void Transport::exchanges(const Field& mixing, double dt) {
-  const double across = dt / (lattice_.spacing * lattice_.spacing);
-  const auto one = [&](Index k, Index j, Index first, Index down, Index front, Index left,
-                       float factor, Field& out) {
-    const auto at = [&](const Field& field, Index back) {
-      return field.row(k - back * down, j - back * front) + first - back * left;
-    };
-    exchange_row(lattice_.nx - first, {at(mixing, 1), at(mixing, 0)},
-                 {at(first_, 1), at(first_, 0), at(second_, 1), at(second_, 0)}, factor,
-                 most_mixing, out.row(k, j) + first);
+/// Computes eddy exchange across the faces of row j of level k along an axis. It is limited by the
+/// air that is left where one direction has drained a cell.
+void Transport::exchange_faces(Axis axis, const Field& mixing, double dt, Index k, Index j) {
+  const auto at = static_cast<std::size_t>(k);
+  const bool up = axis == Axis::z;
+  const Index low_k = up ? k - 1 : k, low_j = axis == Axis::y ? j - 1 : j;
+  const Index left = axis == Axis::x ? 1 : 0;
+  const auto rows = [&](const Field& field) {
+    return std::array{field.row(low_k, low_j) - left, field.row(k, j)};
   };
-  each(lattice_.nz, [&](Index k) {
-    const auto at = static_cast<std::size_t>(k);
-    const float level = air_.cell[at] * static_cast<float>(across);
-    const float up = k > 0 ? air_.face[at] * static_cast<float>(dt / lattice_.gap(k)) : 0.0F;
-    for (Index j = 0; j < lattice_.ny; ++j) {
-      one(k, j, 1, 0, 0, 1, level, mix_x_);
-      if (j > 0) {
-        one(k, j, 0, 0, 1, 0, level, mix_y_);
-      }
-      if (k > 0) {
-        one(k, j, 0, 1, 0, 0, up, mix_z_);
-      }
-    }
-  });
+  const auto k_rows = rows(mixing), first = rows(first_), second = rows(second_);
+  const double across = dt / (lattice_.spacing * lattice_.spacing);
+  const float factor = up ? air_.face[at] * static_cast<float>(dt / lattice_.gap(k))
+                          : air_.cell[at] * static_cast<float>(across);
+  float* out = (axis == Axis::x ? mix_x_ : axis == Axis::y ? mix_y_ : mix_z_).row(k, j);
+  exchange_row(lattice_.nx, k_rows, {first[0], first[1], second[0], second[1]}, factor, most_mixing,
+               out);
+  if (left > 0) {
+    out[0] = 0.0F; // nothing passes the domain's faces
+  }
 }
 
 /// Returns the largest Courant number of a step.
@@ -95,137 +83,119 @@ double Transport::max_courant(const Wind& wind, double dt) const {
   });
 }
 
-void Transport::fluxes(const Wind& wind, double dt) {
-  const double along = dt / lattice_.spacing;
-  each(lattice_.nz, [&](Index k) {
-    const auto at = static_cast<std::size_t>(k);
-    const auto factor = static_cast<float>(static_cast<double>(air_.cell[at]) * along);
-    const auto up = static_cast<float>(static_cast<double>(air_.face[at]) * dt);
-    for (Index j = 0; j <= lattice_.ny; ++j) {
-      scale_row(lattice_.nx, wind.v.row(k, j), factor, y_.row(k, j));
-      if (j < lattice_.ny) {
-        scale_row(lattice_.nx + 1, wind.u.row(k, j), factor, x_.row(k, j));
-        scale_row(lattice_.nx, wind.w.row(k, j), up, z_.row(k, j));
-      }
+/// Computes the fluxes of level k in a substep, the air of its cells after one direction and after
+/// two, and the exchange across its vertical faces. @return the largest share of air that a cell
+/// loses in one direction; after the last one, cells have the air at rest
+double Transport::prepare_level(const Wind& wind, const Field* mixing, double dt, bool backwards,
+                                Index k) {
+  const Index nx = lattice_.nx, ny = lattice_.ny;
+  const auto at = static_cast<std::size_t>(k);
+  const auto vertical = [&](Index level) {
+    return static_cast<float>(static_cast<double>(air_.face[static_cast<std::size_t>(level)]) * dt);
+  };
+  const float rest = air_.cell[at];
+  const auto across = static_cast<float>(static_cast<double>(rest) * (dt / lattice_.spacing));
+  const float up = vertical(k), top = vertical(k + 1);
+  std::vector<float> above(static_cast<std::size_t>(lattice_.stride));
+  KeptAir kept;
+  kept.least_first.fill(rest);
+  kept.least_second.fill(1.0F);
+  kept.most_second.fill(rest);
+  scale_row(nx, wind.v.row(k, 0), across, y_.row(k, 0));
+  for (Index j = 0; j < ny; ++j) {
+    scale_row(nx, wind.v.row(k, j + 1), across, y_.row(k, j + 1));
+    scale_row(nx + 1, wind.u.row(k, j), across, x_.row(k, j));
+    scale_row(nx, wind.w.row(k, j), up, z_.row(k, j));
+    const float *in = x_.row(k, j), *out = in + 1;
+    if (backwards) {
+      scale_row(nx, wind.w.row(k + 1, j), top, above.data());
+      in = z_.row(k, j);
+      out = above.data();
     }
-  });
-}
-
-/// Computes the air of cells after one more direction. @return the largest share of air that a cell
-/// lost
-double Transport::drain(Axis axis, const Field& before, Field& after) {
-  const Field& through = flux(axis);
-  return max_each(lattice_.nz, [&](Index k) {
-    float least = 1.0F;
-    for (Index j = 0; j < lattice_.ny; ++j) {
-      const float* in = through.row(k, j);
-      const float* out = axis == Axis::x   ? in + 1
-                         : axis == Axis::y ? through.row(k, j + 1)
-                                           : through.row(k + 1, j);
-      remaining_row(lattice_.nx, before.row(k, j), in, out, after.row(k, j));
-      least = std::min(least, min_ratio_row(lattice_.nx, after.row(k, j), before.row(k, j)));
+    drain_row(nx, {in, y_.row(k, j)}, {out, y_.row(k, j + 1)}, rest, first_.row(k, j),
+              second_.row(k, j), kept);
+    if (mixing) {
+      exchange_faces(Axis::x, *mixing, dt, k, j);
     }
-    return 1.0 - static_cast<double>(least);
-  });
-}
-
-/// Returns the largest share that cells lose in the last direction, after which they have the air
-/// at rest.
-double Transport::drain_last(const Field& before) const {
-  return max_each(lattice_.nz, [&](Index k) {
-    const float rest = air_.cell[static_cast<std::size_t>(k)];
-    float most = rest;
-    for (Index j = 0; j < lattice_.ny; ++j) {
-      most = std::max(most, max_abs_row(lattice_.nx, before.row(k, j)));
-    }
-    return 1.0 - static_cast<double>(rest / most);
-  });
-}
-
-int Transport::prepare(const Wind& wind, double dt, bool backwards) {
-  courant_ = max_courant(wind, dt);
-  for (int substeps = std::max(1, static_cast<int>(std::ceil(courant_ / most_courant)));;
-       substeps *= 2) {
-    fluxes(wind, dt / substeps);
-    const double one = drain(backwards ? Axis::z : Axis::x, rest_, first_);
-    const double two = drain(Axis::y, first_, second_);
-    if (std::max({one, two, drain_last(second_)}) < max_drained || substeps >= most_substeps) {
-      return substeps;
+    if (mixing && j > 0) {
+      exchange_faces(Axis::y, *mixing, dt, k, j);
     }
   }
+  const float least =
+      std::min(std::ranges::min(kept.least_first) / rest, std::ranges::min(kept.least_second));
+  return 1.0 - static_cast<double>(std::min(least, rest / std::ranges::max(kept.most_second)));
 }
 
-void Transport::levels(Wind& wind, std::span<Field* const> scalars, std::size_t conserved,
-                       bool backwards, std::span<BoundaryFlux> crossed) {
-  const std::array<Axis, 2> order =
-      backwards ? std::array{Axis::y, Axis::x} : std::array{Axis::x, Axis::y};
-  const std::array<const Field*, 2> mass = backwards
-                                               ? std::array<const Field*, 2>{&first_, &second_}
-                                               : std::array<const Field*, 2>{&rest_, &first_};
-  const std::size_t count = scalars.size();
-  each(lattice_.nz, [&](Index k) {
-    for (std::size_t n = 0; n < 2; ++n) {
-      const bool last = backwards && n == 1;
-      const auto go = [&](Place place, std::span<Field* const> fields, std::size_t rescaled) {
-        const auto rest = last ? std::span<const float>(air_.cell) : std::span<const float>();
-        const bool counts = place == Place::middle;
-        sweep_level({lattice_, order[n], place, flux(order[n]), *mass[n], rest, fields, rescaled,
-                     sparse(place), exchange(order[n]), counts ? scalar_mixing : 1.0F},
-                    k,
-                    counts ? crossed.subspan(static_cast<std::size_t>(k) * count, count)
-                           : std::span<BoundaryFlux>());
-      };
-      const std::array<Field*, 3> parts{&wind.u, &wind.v, &wind.w};
-      go(Place::middle, scalars, conserved);
-      go(Place::x, std::span(parts).subspan(0, 1), 0);
-      go(Place::y, std::span(parts).subspan(1, 1), 0);
-      if (k > 0) {
-        go(Place::z, std::span(parts).subspan(2, 1), 0);
+int Transport::prepare(const Wind& wind, const Field* mixing, double dt, bool backwards) {
+  courant_ = max_courant(wind, dt);
+  int substeps = std::max(1, static_cast<int>(std::ceil(courant_ / most_courant)));
+  const auto drained = [&] {
+    return max_each(lattice_.nz, [&](Index k) {
+      return prepare_level(wind, mixing, dt / substeps, backwards, k);
+    });
+  };
+  while (drained() >= max_drained && substeps < most_substeps) {
+    substeps *= 2;
+  }
+  if (mixing) {
+    each(lattice_.nz - 1, [&](Index k) {
+      for (Index j = 0; j < lattice_.ny; ++j) {
+        exchange_faces(Axis::z, *mixing, dt / substeps, k + 1, j);
       }
-    }
+    });
+  }
+  return substeps;
+}
+
+/// Returns the sweeps of all fields along an axis.
+std::array<Sweep, 4> Transport::sweeps(Axis axis, const Field& mass, bool last,
+                                       const Advected& fields) const {
+  const auto sweep = [&](Place place, std::span<Field* const> moved, std::size_t rescaled,
+                         std::size_t sparse, float mixing) {
+    return Sweep{lattice_, axis,     place,  flux(axis),     mass,  air_.cell.data(),
+                 moved,    rescaled, sparse, exchange(axis), mixing};
+  };
+  const auto momentum = [&](Place place, std::size_t part) {
+    return sweep(place, std::span(fields.wind).subspan(part, 1), 0, 0, 1.0F);
+  };
+  return {sweep(Place::middle, fields.scalars, last ? fields.conserved : 0, 2, scalar_mixing),
+          momentum(Place::x, 0), momentum(Place::y, 1), momentum(Place::z, 2)};
+}
+
+void Transport::levels(const Advected& fields, bool backwards, std::span<BoundaryFlux> crossed) {
+  const auto first =
+      backwards ? sweeps(Axis::y, first_, false, fields) : sweeps(Axis::x, rest_, false, fields);
+  const auto second =
+      backwards ? sweeps(Axis::x, second_, true, fields) : sweeps(Axis::y, first_, false, fields);
+  const std::size_t count = fields.scalars.size();
+  each(lattice_.nz, [&](Index k) {
+    const auto part = crossed.subspan(static_cast<std::size_t>(k) * count, count);
+    sweep_level(first, k, part);
+    sweep_level(second, k, part);
   });
 }
 
-void Transport::columns(Wind& wind, std::span<Field* const> scalars, std::size_t conserved,
-                        bool backwards) {
-  const Field& mass = backwards ? rest_ : second_;
-  const auto rest = backwards ? std::span<const float>() : std::span<const float>(air_.cell);
-  each(lattice_.ny, [&](Index j) {
-    const std::array<Field*, 3> parts{&wind.u, &wind.v, &wind.w};
-    const auto go = [&](Place place, std::span<Field* const> fields, std::size_t rescaled) {
-      sweep_columns({lattice_, Axis::z, place, z_, mass, rest, fields, rescaled, sparse(place),
-                     exchange(Axis::z), place == Place::middle ? scalar_mixing : 1.0F},
-                    j);
-    };
-    go(Place::middle, scalars, conserved);
-    go(Place::x, std::span(parts).subspan(0, 1), 0);
-    if (j > 0) {
-      go(Place::y, std::span(parts).subspan(1, 1), 0);
-    }
-    go(Place::z, std::span(parts).subspan(2, 1), 0);
-  });
+void Transport::columns(const Advected& fields, bool backwards) {
+  const auto along = sweeps(Axis::z, backwards ? rest_ : second_, !backwards, fields);
+  each(lattice_.ny, [&](Index j) { sweep_columns(along, j); });
 }
 
 int Transport::advance(Wind& wind, std::span<Field* const> scalars, std::size_t unconserved,
                        double dt, bool backwards, std::span<BoundaryFlux> crossed,
                        const Field* mixing) {
-  const int substeps = prepare(wind, dt, backwards);
-  mixes_ = mixing != nullptr;
-  if (mixing) {
-    exchanges(*mixing, dt / substeps);
-  }
+  const int substeps = prepare(wind, mixing, dt, backwards);
   if (substeps >= most_substeps) {
     throw Error("the wind is too strong for the grid; use a shorter time step");
   }
-  const std::size_t conserved = scalars.size() - unconserved;
+  const Advected fields{{&wind.u, &wind.v, &wind.w}, scalars, scalars.size() - unconserved};
   crossed_.assign(scalars.size() * static_cast<std::size_t>(lattice_.nz), {});
   for (int step = 0; step < substeps; ++step) {
     if (backwards) {
-      columns(wind, scalars, conserved, backwards);
-      levels(wind, scalars, conserved, backwards, crossed_);
+      columns(fields, backwards);
+      levels(fields, backwards, crossed_);
     } else {
-      levels(wind, scalars, conserved, backwards, crossed_);
-      columns(wind, scalars, conserved, backwards);
+      levels(fields, backwards, crossed_);
+      columns(fields, backwards);
     }
   }
   const double area = lattice_.spacing * lattice_.spacing;
