@@ -43,35 +43,29 @@ def _run(arguments: argparse.Namespace) -> None:
     UsageError
         There is no such pass.
     """
-    from .. import output, timecode
     from ..auto_framing import fitted_scene
+    from ..cuts import interchange
+    from ..cuts.cut import Edit, cut
     from ..did_you_mean import suggestion
-    from ..errors import UsageError, writing
+    from ..errors import UsageError
     from ..escaped import escaped
     from ..progress import count, result, say
     from ..shot import passes
     from ..shot.runs import scene_runs
-    from . import cut, edl, fcp_xml, markers, media, otio
+    from . import markers, media
 
-    for suffix in (".otio", ".xml", ".edl"):
-        output.check(arguments.out / f"{STEM}{suffix}", arguments.overwrite)
+    interchange.check(arguments.out, STEM, arguments.overwrite)
     shot = fitted_scene.find_source(arguments).shot()
-    formats = {".otio": otio.text, ".xml": fcp_xml.text, ".edl": edl.text}
     known = [name for name, each in passes.known().items() if each.film]
     if arguments.name not in known:
         hint = suggestion(arguments.name, known)
         raise UsageError(f'--pass: "{arguments.name}" is not one of {", ".join(known)}{hint}')
-    rate = shot.settings.time.rate
-    if timecode.nominal_rate(rate) not in edl.RATES:
-        del formats[".edl"]
-        reason = f"an EDL has no timecode at {timecode.format_rate(rate)} frames per second"
-        say(f"left out {STEM}.edl: {reason}; use {STEM}.otio or {STEM}.xml, or set [time] fps = 24")
     films_of_cameras = media.films(shot, arguments.name, arguments.film or arguments.out, arguments.out)
-    edit = cut.Edit(
+    edit = Edit(
         escaped(shot.settings.path.stem),
-        rate,
+        shot.settings.time.rate,
         tuple(films_of_cameras),
-        tuple(cut.cut(films_of_cameras)),
+        tuple(cut(films_of_cameras)),
         tuple(markers.find(shot)),
     )
     used = {film.camera for film in films_of_cameras}
@@ -79,15 +73,8 @@ def _run(arguments: argparse.Namespace) -> None:
         say(f"omitted panoramas, other runs' views and cameras without a film: {', '.join(omitted)}")
     clips, films = count(len(edit.cut), "clip"), count(len(films_of_cameras), "film")
     say(f"cut {clips} of {films}, {count(len(edit.markers), 'marker')}")
-    for suffix, text in formats.items():
-        path = arguments.out / f"{STEM}{suffix}"
-        output.write_text(path, text(edit), arguments.overwrite, newline="\n")
+    for path in interchange.write(edit, arguments.out, STEM, say, arguments.overwrite):
         result(path)
-    former = arguments.out / f"{STEM}.edl"
-    if ".edl" not in formats and output.is_own(former):
-        with writing(former):
-            former.unlink()
-        say(f"removed {former} of an earlier edit")
 
 
 COMMAND = Command("edit", "cut films into OTIO, Final Cut Pro XML and EDL files", _DETAIL, FILMS, _run, _add)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..cuts.cut import Marker
 from ..escaped import escaped
 from ..run import labels, times
 from ..shot.shot import Shot
 from ..stations import events, reading
 from ..stations.events import Event, Place
-from .cut import Marker
 
 IGNITION, FLARE_UP, ARRIVAL = "RED", "MAGENTA", "YELLOW"
 """Colours that OTIO and the locators of EDL files both have."""

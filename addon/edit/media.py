@@ -8,12 +8,12 @@ from typing import Any
 from urllib.parse import quote
 
 from .. import timecode
+from ..cuts.cut import CameraFilm, ImageSequence
 from ..errors import Error, input_error
 from ..render import manifest
 from ..render.picture import FILM_SUFFIXES
 from ..shot import passes
 from ..shot.shot import Shot
-from .cut import CameraFilm, ImageSequence
 
 COMPOSITING = "comp"
 """Pass of layers for compositors."""

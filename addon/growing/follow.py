@@ -71,8 +71,11 @@ def run(
     _check(settings)
     settings.cache.mkdir(parents=True, exist_ok=True)
     said = ""
-    with tempfile.TemporaryDirectory(prefix="follow-", dir=settings.cache) as folder:
-        film = _Film(choice, asked, Path(folder), progress, tell, stop)
+    with (
+        tempfile.TemporaryDirectory(prefix="follow-", dir=settings.cache) as folder,
+        worker.Worker(eevee=settings.render.engine == "eevee") as process,
+    ):
+        film = _Film(choice, asked, Path(folder), process, progress, tell, stop)
         while True:
             poll, text = _look(settings, Path(folder)), f"waiting for the first time in {settings.run}"
             if poll is not None:
@@ -158,18 +161,19 @@ def _groups(settings: Settings, asked: RenderRequest, poll: _Poll) -> tuple[dict
 
 
 class _Film:
-    """Films the groups of frames of one request; each group is rendered once."""
+    """Films the groups of frames of one request; each group is rendered once, all in one process."""
 
     def __init__(
         self,
         choice: ShotSource,
         asked: RenderRequest,
         folder: Path,
+        process: worker.Worker,
         progress: Progress,
         tell: MessageCallback,
         stop: worker.Stop | None,
     ) -> None:
-        self.choice, self.asked, self.folder = choice, asked, folder
+        self.choice, self.asked, self.folder, self.process = choice, asked, folder, process
         self.progress, self.tell, self.stop = progress, tell, stop
         self.settings = choice.settings()
         self.identity, self.exposure = "", ""
@@ -190,8 +194,8 @@ class _Film:
                 self.rendered.update(todo)
 
     def _render(self, poll: _Poll, needed: int, listed: list[int]) -> None:
-        place = self.folder / self.settings.run.absolute().name
-        shutil.rmtree(place, ignore_errors=True)
+        shutil.rmtree(self.folder / "known", ignore_errors=True)
+        place = self.folder / "known" / str(needed) / self.settings.run.absolute().name
         end = _frames(self.settings, poll.run).last
         known_run.write(poll.run, needed, end, place, poll.identity)
         choice = replace(self.choice, run=str(place), cache=str(self._cache()))
@@ -199,7 +203,7 @@ class _Film:
             self.exposure = self.exposure or self._meter(choice)
             choice = replace(choice, exposure=self.exposure)
         asked = replace(self.asked, frames=",".join(map(str, listed)), resume=True)
-        made = render.run(choice, asked, self.progress, self.tell, self.stop)
+        made = render.run(choice, asked, self.progress, self.tell, self.stop, process=self.process)
         self.pictures += made.pictures
         self.expected, self.peak = max(self.expected, made.expected), max(self.peak, made.peak)
 

@@ -13,16 +13,16 @@ from typing import cast
 
 from firetwin_core.run import Run
 
-from ..run import info, measure, times
+from ..run import info, times
 from ..run.measure import Units
-from .storyboard import MAP, Storyboard
+from ..shot.frames import TIME_LAPSE
+from .storyboard import Storyboard
 from .timeline import Span
 
-SYNTHETIC = "synthetic"
 SEPARATOR = " | "
-_STEP, _MAP_STEP = 2.0, 1.0  # s; least time of a caption, and of one of the map
+_STEP, _FAST_STEP = 2.0, 0.5  # s; least time of a caption, and of one of a time-lapse
+_RATE_OVER = 4  # captions of a time-lapse, over which it shows the rate of growth
 _ROUND = (1, 60, 300, 600, 900, 1800, 3600, 10800)  # s; steps of clocks
-_REAL_TIME = 1.05  # times real time, below which the speed is called so
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,10 @@ class Caption:
         Model time of the facts, UTC; None on cards.
     area
         Area burned by then, m2.
+    growth
+        Its rate, m2/h, over the captions before; 0 except in a time-lapse.
+    mark
+        Further words of the text, which a picture has elsewhere.
     """
 
     span: Span
@@ -44,17 +48,20 @@ class Caption:
     moment: datetime | None = None
     facts: str = ""
     area: float = 0.0
+    growth: float = 0.0
+    mark: str = ""
 
     @property
     def lines(self) -> str:
-        """Facts for the picture, in two lines without the word "synthetic", which a picture has elsewhere."""
-        clock, _, rest = self.facts.removesuffix(f"{SEPARATOR}{SYNTHETIC}").partition(SEPARATOR)
-        return f"{clock}\n{rest}"
+        """Facts for the picture, in two lines; the lower one ends before the mark."""
+        clock, *others = self.facts.split(SEPARATOR)
+        rate = [others.pop()] if self.growth > 0.0 else []
+        return "\n".join(map(SEPARATOR.join, ([clock, *rate], others))) if others else self.facts
 
     @property
     def text(self) -> str:
-        """Words and facts."""
-        return f"{self.words}\n{self.facts}".strip()
+        """Words, facts and mark."""
+        return f"{self.words}\n{self.facts}{self.mark and SEPARATOR}{self.mark}".strip()
 
 
 def make(story: Storyboard, spans: Sequence[Span], run: Run) -> list[Caption]:
@@ -62,7 +69,20 @@ def make(story: Storyboard, spans: Sequence[Span], run: Run) -> list[Caption]:
     captions = [each for span in spans for each in _unfilled(story, span)]
     moments = [times.seconds(run, each.moment) for each in captions if each.moment]
     burned = iter(info.burned(run, moments) if moments else [])
-    return [_filled(story, run, each, next(burned)) if each.moment else each for each in captions]
+    captions = [replace(each, area=next(burned)) if each.moment else each for each in captions]
+    return [
+        _filled(story, run, each, _growth(captions, number)) if each.moment else each
+        for number, each in enumerate(captions)
+    ]
+
+
+def _growth(captions: Sequence[Caption], number: int) -> float:
+    """Return the rate of growth (m2/h) up to a caption of a time-lapse; 0 for the first one, and others."""
+    now = captions[number]
+    shown = [each for each in captions[max(number - _RATE_OVER, 0) : number] if each.span is now.span]
+    if not (shown and now.span.shot.speed > TIME_LAPSE[0] and now.moment and shown[0].moment):
+        return 0.0
+    return (now.area - shown[0].area) / ((now.moment - shown[0].moment).total_seconds() / 3600.0)
 
 
 def _unfilled(story: Storyboard, span: Span) -> Iterator[Caption]:
@@ -71,10 +91,11 @@ def _unfilled(story: Storyboard, span: Span) -> Iterator[Caption]:
     if span.moment(span.first) is None:
         yield Caption(span, span.first, end, words)
         return
-    step = max(round((_MAP_STEP if span.shot.picture == MAP else _STEP) * story.fps), 1)
+    fast = span.shot.speed > TIME_LAPSE[0]
+    step = max(round((_FAST_STEP if fast else _STEP) * story.fps), 1)
     steps = max((end - span.first) // step, 1)
     firsts = [span.first + step * k for k in range(steps)]
-    moments = [_readable(span, first, step / story.fps) for first in firsts]
+    moments = [_readable(span, first + fast * (step // 2), step / story.fps) for first in firsts]
     begin = 0
     for k in range(1, steps + 1):
         if k == steps or moments[k] != moments[begin]:
@@ -92,17 +113,18 @@ def _readable(span: Span, frame: int, seconds: float) -> datetime:
     return max(moment - (moment - datetime(moment.year, 1, 1, tzinfo=moment.tzinfo)) % step, start)
 
 
-def _filled(story: Storyboard, run: Run, caption: Caption, area: float) -> Caption:
-    """Add the facts to a caption: clocks, speed and area (m2)."""
+def _filled(story: Storyboard, run: Run, caption: Caption, growth: float) -> Caption:
+    """Add the facts to a caption: clocks, speed, area, and its growth (m2/h) if there is any."""
     assert caption.moment
-    parts = [
-        clocks(caption.moment, story.zone or "UTC"),
-        speed_text(caption.span.shot.speed),
-        f"{measure.area(area, cast(Units, story.units))} burned",
+    words, units = story.words, cast(Units, story.units)
+    facts = [
+        words.date(clocks(caption.moment, story.zone or "UTC")),
+        words.pace(caption.span.shot.speed),
+        words.area(caption.area, units),
     ]
-    if run.synthetic:
-        parts.append(SYNTHETIC)
-    return replace(caption, facts=SEPARATOR.join(parts), area=area)
+    facts += [words.rate(growth, units)] * (growth > 0.0)
+    mark = words.synthetic if run.synthetic else ""
+    return replace(caption, facts=SEPARATOR.join(facts), growth=growth, mark=mark)
 
 
 def clocks(moment: datetime, zone: str) -> str:
@@ -114,11 +136,6 @@ def clocks(moment: datetime, zone: str) -> str:
     if local.startswith(f"{day} {month} {year} "):
         return f"{local} ({' '.join(clock)})"
     return f"{local} ({' '.join([day, month, *clock])})"
-
-
-def speed_text(speed: float) -> str:
-    """Format a speed: ``25 x``, or ``real time``."""
-    return "real time" if speed < _REAL_TIME else f"{float(f'{speed:.3g}'):,g} x"
 
 
 def srt(captions: Sequence[Caption], fps: int) -> str:

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import hashlib
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime
@@ -12,163 +9,91 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from firetwin_core.run import Run
-
-from .. import files, output
+from .. import output, timecode
+from ..cuts import interchange
 from ..errors import input_error, writing
-from ..jobs import render, worker
+from ..jobs import worker
+from ..jobs.worker import Stop
 from ..progress import MessageCallback, Progress, count
-from ..render.picture import Picture
-from ..run import content, labels, readers
-from ..shot.source import ShotSource
+from ..run import labels
+from ..shot import passes
 from ..stations import events
-from . import captions, timeline
+from . import timeline
 from .captions import Caption
-from .quality import Quality, picture_of
-from .scenes import FOLDER, Scenes
-from .storyboard import CARD, MAP, Storyboard
+from .pictures import ShotPictures
+from .quality import picture_of
+from .storyboard import CARD, MAP
 from .timeline import Span
 
 if TYPE_CHECKING:
-    from .growth_map import Growth
     from .sequencer import Project, Reel
 
-BLEND, FILM = "story.blend", "story.mp4"
-_MAPS = 1  # version of the maps' drawing; others are drawn again
+BLEND, FILM, CUT = "story.blend", "story.mp4", "story"
 _HELD = 1.0  # s; a picture that stays longer is moved over
 
 
 @dataclass(frozen=True)
 class Film:
-    """Film of a storyboard in a quality.
+    """Film of a storyboard: the pictures of its shots, and its captions."""
 
-    Attributes
-    ----------
-    places
-        File of named places; None: the places of the run's fire.
-    overwrite
-        Replace a film that is not Firetwin's, and fit all cameras again.
-    """
-
-    story: Storyboard
-    run: Run
-    quality: Quality
+    pictures: ShotPictures
     captions: list[Caption]
-    places: Path | None = None
-    overwrite: bool = False
 
-    @property
-    def out(self) -> Path:
-        """Folder of the story."""
-        return self.story.path.parent.absolute()
-
-    def make(self, resume: bool, progress: Progress, tell: MessageCallback) -> list[Path]:
+    def make(
+        self, resume: bool, progress: Progress, tell: MessageCallback, stop: Stop | None = None
+    ) -> list[Path]:
         """Render the pictures that are missing, lay out the project, and render its film.
 
         Returns
         -------
-        The project and the film.
+        The project, the film, and its cut for other programs.
 
         Raises
         ------
         InputError
             A shot names an unknown place or camera, or a file cannot be written.
         """
-        paths = [self.out / BLEND, self.out / FILM]
+        out, overwrite = self.pictures.out, self.pictures.overwrite
+        paths = [out / BLEND, out / FILM]
         output.check_blend(paths[0])
-        output.check(paths[1], self.overwrite)
-        spans = timeline.lay_out(self.story)
-        for span in sorted(spans, key=lambda each: each.shot.picture != MAP):
-            self._pictures(span, resume, progress, tell)
+        output.check(paths[1], overwrite)
+        interchange.check(out, CUT, overwrite)
+        spans = timeline.lay_out(self.pictures.story)
+        self.pictures.make(spans, resume, progress, tell, stop)
         tell(f"cutting {count(len(spans), 'shot')}")
-        work = partial(cut, self._project(spans), self.overwrite)
-        worker.run(work, progress, tell=tell)
-        return paths
-
-    def _pictures(self, span: Span, resume: bool, progress: Progress, tell: MessageCallback) -> None:
-        """Render the pictures of a shot."""
-        shot = span.shot
-        if shot.picture == CARD:
-            return
-        tell(f"shot {shot.name}: {count(self._count(span), 'picture')}")
-        if shot.picture == MAP:
-            self._maps(span, resume, progress, tell)
-            return
-        scenes = Scenes(self.story, self.run, self.quality, self.overwrite)
-        scenes.write(span)
-        asked = render.RenderRequest(
-            self.out / FOLDER / shot.name, passes=shot.render_pass, resume=resume, films=False
-        )
-        render.run(ShotSource(scene=str(scenes.path(shot))), asked, progress, tell)
-
-    def _count(self, span: Span) -> int:
-        return self.quality.pictures(span, self.story.fps)
-
-    def _map_files(self, span: Span) -> list[Path]:
-        """Return the files of a shot's maps."""
-        name = span.shot.name
-        folder = self.out / FOLDER / name / "map"
-        return [folder / f"{name}_map_{number:06d}.png" for number in range(1, self._count(span) + 1)]
-
-    def _maps(self, span: Span, resume: bool, progress: Progress, tell: MessageCallback) -> None:
-        """Draw the maps of a shot, unless they exist and their inputs are the same."""
-        paths, (start, end) = self._map_files(span), (span.shot.start, span.shot.end)
-        assert start
-        assert end
-        note, made_from = paths[0].with_name("made_from.json"), {"sha256": self._map_digest(span)}
-        with contextlib.suppress(OSError, ValueError):
-            if resume and files.read_json(note) == made_from and all(path.is_file() for path in paths):
-                return
-        steps = max(len(paths) - 1, 1)
-        drawn = [(path, start + (end - start) * (k / steps)) for k, path in enumerate(paths)]
-        run, size = Path(self.run.path), self.quality.resolution
-        work = partial(draw_maps, run, self.places, self.story.zone, size, drawn)
-        worker.run(work, progress, tell=tell)
-        files.write_text(note, json.dumps(made_from))
-
-    def _map_digest(self, span: Span) -> str:
-        """Return a hash of all inputs of a shot's maps."""
-        names = [each[:3] for each in labels.find(self.run, self.places)]
-        about = [_MAPS, str(span.shot.start), str(span.shot.end), self._count(span), self.quality.resolution]
-        about += [names, self.story.zone, content.inputs(self.run, self.out / "cache")]
-        return hashlib.sha256(json.dumps(about).encode()).hexdigest()
+        work = partial(cut, self._project(spans), overwrite)
+        return paths + worker.run(work, progress, stop=stop, tell=tell)
 
     def _project(self, spans: list[Span]) -> Project:
         """Describe the project."""
         from .sequencer import Project
 
+        pictures = self.pictures
         return Project(
-            self.out / BLEND,
+            pictures.out / BLEND,
             tuple(self._reel(span) for span in spans),
-            tuple(self.captions),
+            tuple(each for each in self.captions if passes.known()[each.span.shot.render_pass].captions),
             tuple(self._markers(spans)),
-            self.quality.resolution,
-            self.story.fps,
-            captions.SYNTHETIC if self.run.synthetic else "simulation",
+            pictures.quality.resolution,
+            pictures.story.fps,
+            pictures.story.words.mark(pictures.run.synthetic),
         )
 
     def _reel(self, span: Span) -> Reel:
         """Describe the pictures of a shot; each frame of the film shows the nearest one."""
         from .sequencer import Reel
 
-        shot, pictures = span.shot, self._count(span)
-        if shot.picture == CARD:
+        if span.shot.picture == CARD:
             return Reel(span)
-        if shot.picture == MAP:
-            paths = [path.relative_to(self.out).as_posix() for path in self._map_files(span)]
-        else:
-            frames = range(1, pictures + 1)
-            own = (Picture(shot.camera, number, shot.render_pass).file(".png") for number in frames)
-            paths = [f"{FOLDER}/{shot.name}/{each}" for each in own]
-        names = [Path(path).name for path in paths]
-        shown = tuple(names[picture_of(span, pictures, k) - 1] for k in range(span.first, span.end))
-        still = shot.picture != MAP and shot.seconds / pictures > _HELD
-        return Reel(span, Path(paths[0]).parent.as_posix(), shown, still)
+        paths = self.pictures.files(span)
+        shown = (paths[picture_of(span, len(paths), k) - 1].name for k in range(span.first, span.end))
+        still = span.shot.picture != MAP and span.shot.seconds / len(paths) > _HELD
+        return Reel(span, paths[0].parent.relative_to(self.pictures.out).as_posix(), tuple(shown), still)
 
     def _markers(self, spans: list[Span]) -> Iterator[tuple[int, str]]:
         """Yield frame and text of events of the run that a map shows."""
-        run = self.run
-        happened = [*events.ignitions(run), *events.arrivals_at(run, labels.find(run, self.places))]
+        run, places = self.pictures.run, self.pictures.places
+        happened = [*events.ignitions(run), *events.arrivals_at(run, labels.find(run, places))]
         for span in spans:
             yield span.first, span.shot.name
             for event in happened if span.shot.picture == MAP else ():
@@ -184,39 +109,12 @@ def _frame_of(span: Span, moment: datetime) -> int | None:
     return span.first + round((moment - shot.start) / (shot.end - shot.start) * (span.length - 1))
 
 
-def draw_maps(
-    run: Path,
-    places: Path | None,
-    zone: str,
-    size: tuple[int, int],
-    drawn: list[tuple[Path, datetime]],
-    progress: Progress,
-    tell: MessageCallback,
-) -> None:
-    """Draw maps of a run, each of a time; in a worker process, as letters need Blender."""
-    import bpy  # noqa: F401 (its typeface)
-
-    from .growth_map import Growth
-
-    opened = readers.open(run)
-    growth = Growth(opened, labels.find(opened, places), zone, size)
-    for number, (path, moment) in enumerate(drawn, start=1):
-        files.write(path, partial(_write_map, growth, moment), durable=False)
-        progress(number, len(drawn), "drawing", path.name)
-
-
-def _write_map(growth: Growth, moment: datetime, path: Path) -> None:
-    from firetwin_core import sensor
-
-    sensor.write_image(path, growth.draw(moment))
-
-
-def cut(project: Project, overwrite: bool, progress: Progress, tell: MessageCallback) -> None:
-    """Lay out the project in its file, and render its film; in a worker process."""
+def cut(project: Project, overwrite: bool, progress: Progress, tell: MessageCallback) -> list[Path]:
+    """Lay out the project in its file, render its film, and write its cut; in a worker process."""
     import bpy
 
     from ..jobs import build
-    from ..render import verify
+    from ..render import timecode_track, verify
     from . import sequencer
 
     if project.path.is_file():
@@ -227,6 +125,7 @@ def cut(project: Project, overwrite: bool, progress: Progress, tell: MessageCall
     if sequencer.SCENE_NAME not in bpy.data.scenes:
         raise input_error(project.path, f"has no scene {sequencer.SCENE_NAME}; rename or delete the file")
     sequencer.lay_out(bpy.data.scenes[sequencer.SCENE_NAME], project)
+    edit = sequencer.describe_cut(bpy.data.scenes[sequencer.SCENE_NAME], FILM)
     build.save(project.path, tell)
     film = project.path.with_name(FILM)
     progress(0, 1, "filming")
@@ -236,10 +135,12 @@ def cut(project: Project, overwrite: bool, progress: Progress, tell: MessageCall
         bpy.data.scenes[sequencer.SCENE_NAME].render.filepath = str(part)
         with writing(film):
             bpy.ops.render.render(animation=True, scene=sequencer.SCENE_NAME)
+        timecode_track.add(part, timecode.count_of_frame(1, edit.rate), edit.rate)
         verify.film(part)
 
     output.write(film, put, overwrite)
     progress(1, 1, "filming")
+    return interchange.write(edit, project.path.parent, CUT, tell, overwrite)
 
 
 def _open(path: Path) -> None:

@@ -19,9 +19,11 @@ from numpy.typing import NDArray
 from ..blender import text
 from ..blender.text import Line
 from ..ellipsoid import metres_per_degree
-from ..run import areas, front, fronts, thumbnails, times
+from ..geometry.grids import dilate
+from ..run import areas, front, fronts, measure, thumbnails, times
 from ..run.arrival_grid import fill_unburned
 from ..run.labels import Label
+from .words import LETTERS, SAFE, Words
 
 RAMP = ("#4a1d6e", "#8c2375", "#cc3b5c", "#f06a3a", "#fba318", "#f7e26b")
 """Colours of arrival times, first to last."""
@@ -29,14 +31,12 @@ _BEFORE = (0.32, 0.30, 0.29)  # burned before the run
 _BARE, _GREEN, _OUTSIDE = (0.86, 0.83, 0.76), (0.55, 0.66, 0.46), (0.30, 0.31, 0.32)
 _GLOW = (1.0, 0.97, 0.75)
 _GLOWING = 1.0 / 60.0  # of the run, time in which the front's glow fades to a third
-_TALL, _WIDE = 0.64, 0.8  # of the picture, largest height and width of the fire
-_LOW = 0.05  # of the picture, the fire's centre above the picture's: captions are below
+_TALL, _WIDE = 0.58, 0.8  # of the picture, largest height and width of the fire
+_LOW = 0.07  # of the picture, the fire's centre above the picture's: captions are below
 _LEAST = 4.0  # cells of the run, least half of the map's height
 _STEEP = 2.0  # vertical exaggeration of the shading
 _LIGHT = np.array([-0.5, 0.5, np.sqrt(0.5)])  # unit vector to the light, in the north-west: east, north, up
 _LINES = 12  # most lines of equal arrival
-_SIZE = 1 / 26  # of the picture's height, letters
-_ROUND = (1.0, 2.0, 5.0)
 _WHITE, _GREY = (1.0, 1.0, 1.0), (0.72, 0.74, 0.76)
 
 Array = NDArray[np.float64]
@@ -55,12 +55,15 @@ class Growth:
         Time zone of the legend.
     size
         Width and height, pixels.
+    words
+        Words of the scale bar and the legend.
     """
 
     run: Run
     places: Sequence[Label]
     zone: str
     size: tuple[int, int]
+    words: Words = Words()  # noqa: RUF009 (immutable)
     _letters: dict[tuple[bool, ...], tuple[Array, Array]] = field(default_factory=dict, repr=False)
 
     @cached_property
@@ -108,17 +111,12 @@ class Growth:
         run = self.run
         reach, last = front.reach(run), float(run.times[-1])
         with np.errstate(invalid="ignore"):
-            burned = np.argwhere(reach.arrival <= last)
-        corners = burned if len(burned) else np.argwhere(np.ones_like(reach.arrival))
-        (south, west), (north, east) = corners.min(axis=0), corners.max(axis=0)
-        sides = reach.latitude[[south, north]], reach.longitude[[west, east]]
-        latitude, longitude = (float(np.mean(side)) for side in sides)
-        per_degree = metres_per_degree(latitude)
-        tall, wide = (abs(float(np.diff(side)[0])) * m for side, m in zip(sides, per_degree, strict=True))
+            burned = reach.arrival <= last
+        latitude, longitude, (wide, tall) = areas.bounds(reach.latitude, reach.longitude, burned)
         cell = max(areas.cell_size(run.fuel_latitude, run.fuel_longitude))
         width, height = self.size
         scale = max(tall / (_TALL * height), wide / (_WIDE * width), 2.0 * _LEAST * cell / height)
-        return latitude - _LOW * height * scale / per_degree[0], longitude, scale
+        return latitude - _LOW * height * scale / metres_per_degree(latitude)[0], longitude, scale
 
     @cached_property
     def _pixels(self) -> tuple[Array, Array]:
@@ -203,11 +201,11 @@ class Growth:
     def _names(self) -> list[tuple[float, Picture]]:
         """Arrival time at each named place in the picture, s, and its name as opacity (h, w)."""
         width, height = self.size
-        size, drawn = _SIZE * height, []
+        size, drawn = LETTERS * height, []
         for place in self.places:
             x, y = self._at(place.latitude, place.longitude)
             room = text.measure_width(place.name, size) + size
-            if not (size < x < width - room and 0.22 * height < y < 0.9 * height):
+            if not (SAFE * width < x < (1.0 - SAFE) * width - room and 0.22 * height < y < 0.9 * height):
                 continue
             names = text.draw_lines([Line(place.name, size, x + 0.5 * size, y - 0.35 * size)], width, height)
             row, column, half = int(height - y), int(x), max(int(0.16 * size), 1)
@@ -219,18 +217,18 @@ class Growth:
     def _marks(self) -> Picture:
         """Scale bar, north arrow and times of the legend as opacity (h, w)."""
         width, height = self.size
-        size = _SIZE * height
-        right, top = width - 1.5 * size, height - 2.2 * size
-        length = _round_length(0.22 * width * self.scale)
+        size = LETTERS * height
+        right, top = (1.0 - SAFE) * width, height - self._bar[1]
+        length = measure.round_length(0.22 * width * self.scale)
         bar = length / self.scale
-        label = f"{length / 1000.0:g} km" if length >= 1000.0 else f"{length:g} m"
+        label = self.words.length(length)
         left, _, end, _ = self._bar
         first, last = (self._clock(float(self.run.times[k])) for k in (0, -1))
         lines = [
             Line(label, size, right - 0.5 * bar - 0.5 * text.measure_width(label, size), top + 0.5 * size),
-            Line("N ↑", size, right - bar - 2.5 * size, top - 0.3 * size),
-            Line(first, 0.8 * size, left, top + 0.5 * size),
-            Line(last, 0.8 * size, end - text.measure_width(last, 0.8 * size), top + 0.5 * size),
+            Line(f"{self.words.north} ↑", size, right - bar - 2.5 * size, top - 0.3 * size),
+            Line(first, size, left, top + 0.5 * size),
+            Line(last, size, end - text.measure_width(last, size), top + 0.5 * size),
         ]
         opacity = text.draw_lines(lines, width, height)
         row, thick = int(height - top), max(int(0.12 * size), 1)
@@ -241,8 +239,9 @@ class Growth:
     def _bar(self) -> tuple[int, int, int, int]:
         """Left, top, right and lower edge of the legend, pixels from the upper left corner."""
         width, height = self.size
-        size = _SIZE * height
-        return int(1.5 * size), int(2.2 * size), int(1.5 * size + 0.34 * width), int(2.8 * size)
+        size = LETTERS * height
+        left, top = SAFE * width, SAFE * height + 1.5 * size
+        return int(left), int(top), int(left + 0.34 * width), int(top + 0.6 * size)
 
     @cached_property
     def _legend(self) -> tuple[Array, Array]:
@@ -257,19 +256,10 @@ class Growth:
     def _clock(self, time: float) -> str:
         """Format day and time of a model time (s): ``17 Sep 19:00``."""
         day, month, _, clock, *_ = times.text(times.utc(self.run, time), self.zone).split(" ")
-        return f"{day} {month} {clock}"
+        return self.words.date(f"{day} {month} {clock}")
 
 
 def _written(picture: Array, opacity: Picture, colour: tuple[float, float, float]) -> Array:
     """Write letters in a colour over a picture, with a dark outline of a pixel."""
-    dark = opacity.copy()
-    for axis, shift in ((0, 1), (0, -1), (1, 1), (1, -1)):
-        np.maximum(dark, np.roll(opacity, shift, axis), out=dark)
-    picture = picture * (1.0 - 0.75 * dark[..., None])
+    picture = picture * (1.0 - 0.75 * dilate(opacity, 1)[..., None])
     return picture * (1.0 - opacity[..., None]) + np.array(colour) * opacity[..., None]
-
-
-def _round_length(most: float) -> float:
-    """Return the largest round length up to `most`, m."""
-    unit = 10.0 ** np.floor(np.log10(max(most, 1.0)))
-    return float(max(step * unit for step in _ROUND if step * unit <= max(most, 1.0)))

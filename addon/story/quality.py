@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..shot.frames import TIME_LAPSE
 from .storyboard import FLIGHT, GLOBE, MAP
 from .timeline import Span
 
@@ -17,11 +18,13 @@ class Quality:
     rate
         Rendered pictures per second of the film.
     moving_rate
-        The same of cameras that fly.
+        The same of cameras that fly, and of time-lapses.
     map_rate
         The same of maps.
     smoke_method
         `smoke.method` of the scene files.
+    at_once
+        Shots that are rendered at a time; each takes memory.
     """
 
     resolution: tuple[int, int]
@@ -30,12 +33,17 @@ class Quality:
     moving_rate: float
     map_rate: float
     smoke_method: str
+    at_once: int = 1
 
     def pictures(self, span: Span, fps: int) -> int:
         """Count the pictures of a shot."""
         shot = span.shot
-        rate = self.map_rate if shot.picture == MAP else self.rate
-        if shot.camera in (GLOBE, FLIGHT):
+        if shot.step and shot.start and shot.end:
+            return 1 + round((shot.end - shot.start).total_seconds() / shot.step)
+        rate = self.rate
+        if shot.picture == MAP:
+            rate = self.map_rate
+        elif shot.camera in (GLOBE, FLIGHT) or shot.speed > TIME_LAPSE[0]:
             rate = self.moving_rate
         return max(min(round(rate * span.length / fps), span.length), 1)
 
@@ -46,7 +54,7 @@ def picture_of(span: Span, pictures: int, frame: int) -> int:
 
 
 QUALITIES = {
-    "draft": Quality((640, 360), 3, 0.5, 2.0, 12.0, "preview"),
+    "draft": Quality((640, 360), 3, 0.5, 1.5, 12.0, "preview", at_once=2),
     "review": Quality((1280, 720), 6, 12.0, 12.0, 24.0, "flow"),
     "final": Quality((1920, 1080), 16, 60.0, 60.0, 60.0, "flow"),
 }

@@ -17,14 +17,19 @@ _FIELDS = {
 }
 
 
+def area_source(run: Run) -> str:
+    """Describe the field of a run from which areas are computed."""
+    field = info.burned_from(run)
+    return _FIELDS.get(field, f"{field} of the run")
+
+
 def text(story: Storyboard, captions: Sequence[Caption], run: Run) -> str:
     """Write the report as JSON: sources, shots with their reasons, omitted shots, and numbers of captions."""
-    field = info.burned_from(run)
     content = {
         "run": run.name,
         "synthetic": bool(run.synthetic),
         "sources": citations.of_run(run),
-        "area": {"field": field, "from": _FIELDS.get(field, f"{field} of the run"), "unit": "m2"},
+        "area": {"field": info.burned_from(run), "from": area_source(run), "unit": "m2"},
         "shots": [
             {"name": shot.name, "reason": shot.reason, "speed": round(shot.speed, 3), "seconds": shot.seconds}
             for shot in story.shots
@@ -37,6 +42,7 @@ def text(story: Storyboard, captions: Sequence[Caption], run: Run) -> str:
                 "to_s": round((each.end - 1) / story.fps, 3),
                 "time": times.iso(each.moment),
                 "burned_area_m2": round(each.area, 1),
+                "growth_m2_per_h": round(each.growth, 1),
                 "text": each.text,
             }
             for each in captions

@@ -7,7 +7,9 @@ Times and quality follow the storyboard.
 from __future__ import annotations
 
 import functools
+import os
 from dataclasses import dataclass, replace
+from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -15,29 +17,37 @@ import numpy as np
 from firetwin_core.run import Run
 
 from .. import auto_framing, output
-from ..auto_framing import candidates
+from ..auto_framing import candidates, fire_views
 from ..ellipsoid import metres_per_degree
 from ..errors import input_error
-from ..run import labels, times
+from ..run import areas, labels, observations, times
 from ..run.frame import local_frame
+from ..shot import passes
 from ..shot.cameras.rigs._key import CameraKey
 from ..shot.cameras.rigs.drone import Drone
 from ..shot.cameras.rigs.globe import Globe
 from ..shot.cameras.rigs.satellite import Satellite
+from ..shot.fire import flame_map
 from ..shot.frames import TIME_LAPSE
-from ..shot.sections import Time
+from ..shot.sections import ForecastSettings, Time
 from ..shot.settings import Camera, Settings, scene_file, toml_update, toml_writer
 from ..shot.shot import Shot
-from . import timeline
+from . import evidence
 from .quality import Quality
-from .storyboard import ABOVE, FLIGHT, GLOBE, GROUND, SCENE, Storyboard, StoryShot
+from .storyboard import ABOVE, CAMERAS, FLIGHT, FRONT, GLOBE, GOES, GROUND, NEAR, SCENE, Storyboard, StoryShot
 from .timeline import Span
 
 FOLDER = "shots"
 _MAST = 30.0  # m above a place, of a camera there
-_ROOM = 1.35  # of the burned ground's size, width of the view from above
+_ROOM = 1.7  # of the burned ground's size, width of the view from above
+_OBLIQUE = 0.8  # of that width, of a geostationary imager, which sees the ground foreshortened
+_LOW = 0.14  # of the picture's height, the burned ground above the picture's centre: captions are below
 _LEAST = 500.0  # m, size of a burned ground
 _FAR, _HIGH = 1.2, 0.8  # of the fire's size, distance and height at which the flight from space ends
+_LINE = 200.0  # of the picture's width from above, width of observed perimeters
+_TALL = 0.02  # of the picture's height, flames in a chase below which the overview is better (by eye)
+_TALLEST = 90  # percentile of the flames' lengths, the length of a fire's flames
+_FLAMES = timedelta(seconds=60.0)  # time before a shot of flames in which they reach its place
 _AIM = 30.0  # m above the ground, of a camera that looks at the fire
 _ASKED = (
     "run",
@@ -72,7 +82,7 @@ class Scenes:
         Raises
         ------
         InputError
-            A place or camera of the shot is unknown, or the file cannot be written.
+            A place or camera of the shot is unknown, or the file is of others or cannot be written.
         """
         path = self.path(span.shot)
         there = scene_file.read(path) if path.is_file() and not self.fit_again else None
@@ -80,22 +90,23 @@ class Scenes:
             settings = self._with_times(there, span)
             text = toml_update.updated(path.read_text(encoding="utf-8"), settings)
         else:
+            if os.path.lexists(path) and not self.fit_again and not output.is_own(path):
+                raise input_error(path, f"has another camera than {span.shot.camera}; rename or delete it")
             settings = self._with_times(replace(self._scene(span.shot), path=path), span)
             text = toml_writer.brief(
                 settings, _ASKED, {"run": f"The shot {span.shot.name} of {self.story.path.name}."}
             )
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            output.write_text(path, text, overwrite=True, newline="\n")
+            output.write_text(path, text, overwrite=True)
         return settings
 
     def _with_times(self, settings: Settings, span: Span) -> Settings:
         """Set the times and the quality of a shot."""
-        shot, quality = span.shot, self.quality
+        shot, quality, lapse = span.shot, self.quality, span.shot.speed > TIME_LAPSE[0]
         assert shot.end
-        smoke = replace(
-            settings.smoke, enabled=shot.smoke and settings.smoke.enabled, method=quality.smoke_method
-        )
-        shutter = None if shot.speed > TIME_LAPSE[0] else 0.0  # else frames that stand for several would blur
+        method = "preview" if lapse else quality.smoke_method
+        smoke = replace(settings.smoke, enabled=shot.smoke and settings.smoke.enabled, method=method)
+        shutter = None if lapse else 0.0  # else frames that stand for several would blur
         return replace(
             settings,
             time=Time(
@@ -111,49 +122,77 @@ class Scenes:
                 settings.render,
                 resolution=quality.resolution,
                 samples=quality.samples,
-                passes=(shot.render_pass,),
+                passes=self.story.passes_of(shot),
                 video=False,
             ),
         )
 
     def _scene(self, shot: StoryShot) -> Settings:
         """Fit settings with the camera of a shot."""
-        own = {camera.name: camera for camera in self._base.cameras} if self.story.scene else {}
+        base = self._inputs(shot)
+        own = {camera.name: camera for camera in base.cameras} if self.story.scene else {}
         if shot.camera in own:
-            return replace(self._base, cameras=(replace(own[shot.camera], passes=()),))
-        settings = auto_framing.fit_draft(self.run, self._base)
-        own_rigs = {GLOBE: self._globe, GROUND: self._ground, ABOVE: self._above, FLIGHT: self._flight}
-        make_rig = own_rigs.get(shot.camera, self._placed)
-        return replace(settings, cameras=(Camera(shot.camera, rig=make_rig(shot)),))
+            return replace(base, cameras=(replace(own[shot.camera], passes=()),))
+        settings = auto_framing.fit_draft(self.run, base)
+        own_rigs = {
+            GLOBE: self._globe,
+            NEAR: self._near,
+            GROUND: self._ground,
+            ABOVE: self._above,
+            FLIGHT: self._flight,
+            GOES: self._goes,
+        }
+        rig = own_rigs.get(shot.camera, self._placed)(shot)
+        if shot.observed and isinstance(rig, Satellite):
+            width = max(settings.fire.observed_width, candidates.rounded(rig.swath / _LINE))
+            settings = replace(settings, fire=replace(settings.fire, observed_width=width))
+        return replace(settings, cameras=(Camera(shot.camera, rig=rig),))
+
+    def _inputs(self, shot: StoryShot) -> Settings:
+        """Return the settings with the other runs, members and perimeters that a shot shows."""
+        settings, drawn = self._settings, passes.known()[shot.render_pass]
+        if not passes.compares(shot.render_pass):
+            settings = replace(settings, runs=())
+        if "forecast" not in drawn.all_aspects:  # its times would limit the shot's
+            settings = replace(settings, forecast=ForecastSettings())
+        lines = settings.fire.observed or Path(self.run.path) / observations.FOLDER
+        fire = replace(
+            settings.fire, observed=lines if shot.observed else None
+        )  # near cameras they hide flames
+        return replace(settings, fire=fire)
 
     @property
-    def _base(self) -> Settings:
+    def _settings(self) -> Settings:
         """Settings of the scene file, or of a run without one."""
         if self.story.scene is not None:
-            return replace(scene_file.read(self.story.scene), runs=())
+            return scene_file.read(self.story.scene)
         folder = self.story.path.parent
         return Settings(path=folder / "scene.toml", run=self.story.run, cache=folder / "cache")
 
     def _fitted(self, shot: StoryShot) -> Settings:
-        """Fit cameras to the times of a shot."""
-        time = Time(shot.start, shot.end, auto_framing.window.FRAMES, fps=auto_framing.window.FPS)
-        return _fit(self.run, replace(self._base, time=time))
+        """Fit cameras to the times of a shot; of a time-lapse, to its last minute, with all burned ground."""
+        start, end = shot.start, shot.end
+        assert end
+        if shot.speed > TIME_LAPSE[0]:
+            start = end - timedelta(minutes=1)
+        time = Time(start, end, auto_framing.window.FRAMES, fps=auto_framing.window.FPS)
+        plain = replace(self._settings, runs=(), forecast=ForecastSettings())
+        return _fit(self.run, replace(plain, time=time))
 
     def _placed(self, shot: StoryShot) -> Any:
         """Fit the camera of auto framing that a shot names."""
-        return _rig(self._fitted(shot), shot, self.story.path)
+        return _rig(self._fitted(shot), self.run, shot, self.story.path)
 
     def _flight(self, shot: StoryShot) -> Drone:
         """Fly from the overview of a shot to the first view of the next rendered shot."""
         ahead = self._next(shot)
         fitted = self._fitted(ahead)
-        overview = _rig(fitted, replace(shot, camera="overview"), self.story.path)
-        camera = next((each for each in fitted.cameras if each.name == ahead.camera), fitted.cameras[0])
-        span = next(each for each in timeline.lay_out(self.story) if each.shot.name == ahead.name)
-        # A chase depends on the number of pictures, over which it is smoothed.
-        filmed = Shot(
-            self._with_times(replace(fitted, cameras=(camera,)), replace(span, shot=ahead)), self.run
-        )
+        overview = _rig(fitted, self.run, replace(shot, camera="overview"), self.story.path)
+        rig = self._near(ahead) if ahead.camera == NEAR else _rig(fitted, self.run, ahead, self.story.path)
+        if rig == overview:  # then it flies to the flank
+            rig = next((each.rig for each in fitted.cameras if each.name == "flank"), rig)
+        camera = Camera(ahead.camera, rig=rig)
+        filmed = Shot(replace(fitted, cameras=(camera,)), self.run)
         view = camera.rig.path(camera, filmed.filming, filmed.bare_ground)
         (latitude, longitude, _), (aim_latitude, aim_longitude, _) = (
             tuple(float(each[0]) for each in local_frame(self.run).reverse(at[:1]))
@@ -170,9 +209,7 @@ class Scenes:
         shots = self.story.shots
         later = shots[[each.name for each in shots].index(shot.name) + 1 :]
         placed = (
-            each
-            for each in later
-            if each.picture == SCENE and each.camera not in (GLOBE, FLIGHT, GROUND, ABOVE)
+            each for each in later if each.picture == SCENE and each.camera not in {*CAMERAS} - {FRONT, NEAR}
         )
         return next(placed, replace(shot, camera="overview"))
 
@@ -187,8 +224,17 @@ class Scenes:
             bearing=180.0,
         )
 
+    def _near(self, shot: StoryShot) -> Any:
+        """Look at the best flames of the minute before a shot."""
+        assert shot.start
+        near = _near_view(self.run, self.story.path.parent / "cache", shot.start)
+        if near is None:
+            reason = f"{shot.name}: no camera has a clear view of flames then"
+            raise input_error(self.story.path, f"{reason}; change shots.start, or delete the shot")
+        return near.camera.rig
+
     def _ground(self, shot: StoryShot) -> Drone:
-        places = {each.name: each for each in labels.find(self.run, self._base.labels.file)}
+        places = {each.name: each for each in labels.find(self.run, self._settings.labels.file)}
         if shot.place not in places:
             reason = (
                 f'shots.place "{shot.place}" is not a place of this run; choose one of {", ".join(places)}'
@@ -203,25 +249,20 @@ class Scenes:
         latitude, longitude, (width, height) = self._burned(times.seconds(self.run, shot.end))
         across, up = self.quality.resolution
         swath = candidates.rounded(_ROOM * max(width, height * across / up))
-        return Satellite(swath=swath, keys=(CameraKey(0.0, latitude, longitude),))
+        latitude -= _LOW * swath * up / across / metres_per_degree(latitude)[0]
+        return Satellite(swath=swath, keys=(CameraKey(0.0, round(latitude, 5), longitude),))
+
+    def _goes(self, shot: StoryShot) -> Satellite:
+        rig, longitude = self._above(shot), evidence.goes(self.run)[1]
+        return replace(rig, swath=candidates.rounded(_OBLIQUE * rig.swath), geostationary=longitude)
 
     def _burned(self, time: float) -> tuple[float, float, tuple[float, float]]:
         """Centre (degrees), width and height (m) of ground burned by a model time; all ground without any."""
         run = self.run
         with np.errstate(invalid="ignore"):
             burned = run.fuel_arrival_time() <= time
-        if not burned.any():
-            burned = np.ones_like(burned)
-        sides = [
-            axis[np.flatnonzero(burned.any(1 - k))[[0, -1]]]
-            for k, axis in enumerate((run.fuel_latitude, run.fuel_longitude))
-        ]
-        latitude, longitude = (float(side.mean()) for side in sides)
-        north, east = metres_per_degree(latitude)
-        tall, wide = (
-            max(abs(float(np.diff(side)[0])) * m, _LEAST)
-            for side, m in zip(sides, (north, east), strict=True)
-        )
+        latitude, longitude, size = areas.bounds(run.fuel_latitude, run.fuel_longitude, burned)
+        wide, tall = (max(side, _LEAST) for side in size)
         return round(latitude, 5), round((longitude + 180.0) % 360.0 - 180.0, 5), (wide, tall)
 
 
@@ -231,7 +272,14 @@ def _fit(run: Run, settings: Settings) -> Settings:
     return auto_framing.fit(run, settings).settings
 
 
-def _rig(fitted: Settings, shot: StoryShot, path: Path) -> Any:
+@functools.lru_cache(maxsize=8)
+def _near_view(run: Run, cache: Path, start: datetime) -> fire_views.NearView | None:
+    """Find a view of flames that reach their place in the minute before a time; shots share it."""
+    asked = start - _FLAMES, start + timedelta(seconds=fire_views.places.SECONDS)
+    return fire_views.find_near_view(run, cache, asked)
+
+
+def _rig(fitted: Settings, run: Run, shot: StoryShot, path: Path) -> Any:
     """Return the rig of a shot's camera among fitted ones.
 
     Raises
@@ -240,7 +288,24 @@ def _rig(fitted: Settings, shot: StoryShot, path: Path) -> Any:
         There is no such camera.
     """
     rigs = {camera.name: camera.rig for camera in fitted.cameras}
-    if shot.camera in rigs:
-        return rigs[shot.camera]
-    known = ", ".join((*rigs, GLOBE, FLIGHT, GROUND, ABOVE))
+    name = _front(fitted, run) if shot.camera == FRONT else shot.camera
+    if name in rigs:
+        return rigs[name]
+    known = ", ".join(dict.fromkeys((*rigs, *CAMERAS)))
     raise input_error(path, f'shots.camera "{shot.camera}" of {shot.name} is unknown; choose one of {known}')
+
+
+@functools.lru_cache(maxsize=8)
+def _front(fitted: Settings, run: Run) -> str:
+    """Return the name of the camera of the front: the chase, or the overview if flames are low in it."""
+    chase = next((camera for camera in fitted.cameras if camera.name == "chase"), None)
+    if chase is None:
+        return "overview"
+    shot = Shot(replace(fitted, cameras=(chase,)), run)
+    view = chase.rig.path(chase, shot.filming, shot.bare_ground)
+    ground, frames = shot.bare_ground, shot.frames
+    burns = (ground.arrival >= frames.first) & (ground.arrival <= frames.last)
+    lengths = flame_map.cell_lengths(shot.front, fitted.fire.flame_length)[burns]
+    away = float(np.linalg.norm(view.position - view.target, axis=1).mean())
+    tall = float(np.percentile(lengths, _TALLEST)) if len(lengths) else 0.0
+    return "chase" if tall >= _TALL * 2.0 * view.half[1] * away else "overview"

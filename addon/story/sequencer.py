@@ -8,22 +8,28 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from itertools import groupby, pairwise
 from pathlib import Path
 
 import bpy
 
 from ..blender import compat
+from ..cuts.cut import CameraFilm, Clip, Edit, Marker
+from ..escaped import escaped
 from .captions import Caption
 from .storyboard import CARD
 from .timeline import Span
+from .words import SAFE
 
 SCENE_NAME = "Story"
 _PLACED = "firetwin"  # custom property of strips
 _DISSOLVES, _WORDS, _FACTS, _MARK = 3, 4, 5, 6  # channels; shots alternate between 1 and 2
 _DARK = (0.015, 0.016, 0.018)
-_SAFE = 0.05  # of the picture, margin of texts
+_PLATE = (0.0, 0.0, 0.0, 0.6)  # behind letters; white ones have a contrast of 5.7 on it over white
 _BAR = 0.84  # of the width, left of the colour bar of infrared pictures
 _PUSH = 1.06  # scale at the end of a still
+_MARKER = "GREEN"  # colour of markers in files of other programs
 
 
 @dataclass(frozen=True)
@@ -99,6 +105,47 @@ def lay_out(scene: bpy.types.Scene, project: Project) -> None:
     _mark(scene, project)
 
 
+def describe_cut(scene: bpy.types.Scene, film: str) -> Edit:
+    """Describe the cut that the film of a scene shows, with its markers; `film` is the file of the film."""
+    frames = range(1, scene.frame_end + 1)
+    size = scene.render.resolution_x, scene.render.resolution_y
+    source = CameraFilm(SCENE_NAME, film, tuple(frames), size)
+    (stretch,) = source.stretches
+    clips = (Clip(source, stretch, at, end - at, escaped(name)) for name, at, end in _cut(scene, frames))
+    markers = sorted((each.frame, each.name) for each in scene.timeline_markers if each.frame in frames)
+    marked = tuple(Marker(frame, escaped(name), _MARKER) for frame, name in markers)
+    return Edit(SCENE_NAME, Fraction(scene.render.fps), (source,), tuple(clips), marked)
+
+
+def _cut(scene: bpy.types.Scene, frames: range) -> Iterator[tuple[str, int, int]]:
+    """Yield strip, first frame and end of each part of a film; a dissolve is part of the strip after it."""
+    spans = {each: compat.strip_span(each) for each in scene.sequence_editor.strips if _has_picture(each)}
+    edges = {frames.start, frames.stop}.union(*((first, first + length) for first, length in spans.values()))
+    parts = pairwise(sorted(edge for edge in edges if frames.start <= edge <= frames.stop))
+    shown = [
+        (_shown([each for each, (at, n) in spans.items() if at <= first < at + n]), first, end)
+        for first, end in parts
+    ]
+    for name, each in groupby(shown, key=lambda part: part[0]):
+        same = list(each)
+        if name:
+            yield name, same[0][1], same[-1][2]
+
+
+def _has_picture(strip: bpy.types.Strip) -> bool:
+    return not strip.mute and strip.type not in ("TEXT", "SOUND", "ADJUSTMENT")
+
+
+def _shown(strips: Sequence[bpy.types.Strip]) -> str:
+    """Return the name of the uppermost of these strips, of an effect its last input; "" without strips."""
+    if not strips:
+        return ""
+    strip = max(strips, key=lambda each: each.channel)
+    while source := getattr(strip, "input_2", None) or getattr(strip, "input_1", None):
+        strip = source
+    return str(strip.name)
+
+
 def set_up(scene: bpy.types.Scene) -> None:
     """Set up a scene for a project: pictures are display-referred, and its film is H.264."""
     scene.name, render = SCENE_NAME, scene.render
@@ -169,13 +216,13 @@ def _texts(project: Project) -> Iterator[tuple[str, int, int, int, _Text]]:
             yield f"{span.shot.name} text", _WORDS, span.first + before, span.free, card
             continue
         if span.shot.caption:
-            words = _Text(span.shot.caption, 0.06, (_SAFE, _SAFE + 0.135))
+            words = _Text(span.shot.caption, 0.06, (SAFE, SAFE + 0.135))
             yield f"{span.shot.name} text", _WORDS, span.first, span.free, words
         for number, caption in enumerate(own, start=1):
-            facts = _Text(caption.lines, 0.042, (_SAFE, _SAFE))
+            facts = _Text(caption.lines, 0.042, (SAFE, SAFE))
             yield f"{span.shot.name} facts {number}", _FACTS, caption.first, caption.end, facts
     if project.mark:
-        mark = _Text(project.mark, 0.042, (_BAR, _SAFE), "RIGHT")
+        mark = _Text(project.mark, 0.042, (_BAR, SAFE), "RIGHT")
         yield "mark", _MARK, 1, project.frames + 1, mark
 
 
@@ -193,13 +240,13 @@ def _write(
     if _kept(editor, name, (first, length, channel), text.text, wanted) is not None:
         return
     strip = compat.new_strip(editor, name, "TEXT", channel, first, length)
-    strip.text, strip.font = text.text, compat.typeface()
+    strip.text, strip.font = text.text, compat.strip_typeface(text.text)
     strip.font_size = text.size * project.size[1]
     strip.color, strip.location = (1.0, 1.0, 1.0, 1.0), text.place
     strip.anchor_x, strip.anchor_y, strip.alignment_x = text.side, text.base, text.side
-    strip.wrap_width = 1.0 - 2.0 * _SAFE
+    strip.wrap_width = 1.0 - 2.0 * SAFE
     strip.use_shadow, strip.shadow_color = True, (0.0, 0.0, 0.0, 0.8)
-    strip.use_box, strip.box_color, strip.box_margin = text.plate, (0.0, 0.0, 0.0, 0.5), 0.006
+    strip.use_box, strip.box_color, strip.box_margin = text.plate, _PLATE, 0.006
     _placed(strip)
 
 

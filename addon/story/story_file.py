@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 from zoneinfo import ZoneInfo
 
+from .. import output
 from ..errors import input_error, reading
 from ..files import read_text
 from ..limits import SETTINGS_BYTES
@@ -18,6 +19,7 @@ from ..shot.settings import toml_writer
 from ..shot.settings.scene_file import TableReader
 from ..toml_text import loads
 from .storyboard import Storyboard
+from .words import Words, rounded
 
 NAME = "story.toml"
 
@@ -25,8 +27,9 @@ _HEAD = """\
 # Storyboard of a film: `firetwin story` renders it again after each change; pictures that match stay.
 # Change the order of the [[shots]], their times, lengths (seconds), captions and cameras, or delete shots.
 # picture = "card" shows the caption alone, "map" the growth on a map, and "scene" the view of a camera.
-# Cameras: globe, flight, ground, above, overview, chase, flank, satellite, or a camera of the scene file.
-# Camera positions are in shots/NAME.toml; delete that file to fit them to changed times."""
+# Cameras: globe, flight, front, ground, above, goes, overview, chase, flank, satellite, or of the scene file.
+# Camera positions are in shots/NAME.toml; delete that file to fit them to changed times.
+# To translate the film, change the captions and [words]."""
 
 
 def read(path: Path) -> Storyboard:
@@ -39,8 +42,9 @@ def read(path: Path) -> Storyboard:
     """
     with reading(path):
         text = read_text(path, "utf-8-sig", most=SETTINGS_BYTES)
+    data = loads(path, text)
     reader = TableReader(path, text, "story file")
-    story: Storyboard = replace(reader.table(Storyboard, loads(path, text), ()), path=path)
+    story: Storyboard = replace(reader.table(Storyboard, data, ()), path=path)
     if invalid := validate(story):
         raise reader.error(*invalid)
     if not story.run.exists():
@@ -50,21 +54,40 @@ def read(path: Path) -> Storyboard:
 
 def text(story: Storyboard) -> str:
     """Write a storyboard as the content of its file."""
-    head = [f"{line:<34}  # {part.key.described()}" for part, line in _lines(story, story, always=True)]
-    blocks = ["\n".join([_HEAD, "", *head])]
+    blocks = [_HEAD, *(_described(story, each) for each in (story, story.words))]
     for name, tables in (("shots", story.shots), ("omitted", story.omitted)):
         blocks += ["\n".join([f"[[{name}]]", *(line for _, line in _lines(story, each))]) for each in tables]
     return "\n\n".join(blocks) + "\n"
+
+
+def _described(story: Storyboard, table: Storyboard | Words) -> str:
+    """Write all keys of a table, each with its description."""
+    head = [] if table is story else ["[words]"]
+    lines = (f"{line:<34}  # {part.key.described()}" for part, line in _lines(story, table, always=True))
+    return "\n".join([*head, *lines])
+
+
+def write(story: Storyboard, overwrite: bool = False) -> None:
+    """Write a storyboard to its file; with `overwrite` also over a file that people changed.
+
+    Raises
+    ------
+    InputError
+        A value is invalid, or the file may not be replaced.
+    """
+    if invalid := validate(story):
+        raise input_error(story.path, invalid[1])
+    output.write_text(story.path, text(story), overwrite)
 
 
 def _lines(story: Storyboard, table: Any, always: bool = False) -> Iterator[tuple[Field, str]]:
     """Write keys of a table: all of them with `always`, else those that differ from their defaults."""
     for part in fields(table.__class__):
         value = getattr(table, part.name)
-        if part.tables or value is None or (value == part.default and not always):
+        if part.table or value is None or (value == part.default and not always):
             continue
         speed = table.speed if part.name == "seconds" else 0.0
-        remark = f"  # {float(f'{speed:.3g}'):,g} times real time" if speed else ""
+        remark = f"  # {rounded(speed)} times real time" if speed else ""
         yield part, f"{part.name} = {_value(story, value)}{remark}"
 
 

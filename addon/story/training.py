@@ -121,7 +121,8 @@ class _Fire:
         speed = float(np.hypot(east, north))
         if speed > 0.0:
             side = candidates.side(float(np.degrees(np.arctan2(-east, -north))))
-            yield f"Wind at the fire: {speed:.0f} m/s ({2.23694 * speed:.0f} mph) from the {side}"
+            miles = measure.MILES_PER_HOUR
+            yield f"Wind at the fire: {speed:.0f} m/s ({miles.format(speed)} {miles.name}) from the {side}"
 
 
 def with_decisions(story: Storyboard, run: Run, places: Sequence[Label]) -> Storyboard:

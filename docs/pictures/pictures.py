@@ -38,13 +38,21 @@ def draw_depth(path: Path) -> Image.Image:
     return Image.fromarray((255 * share).astype(np.uint8)).convert("RGB")
 
 
-def draw_sheet(pictures: list[Image.Image]) -> Image.Image:
-    """Draw four pictures in two rows."""
+def draw_sheet(pictures: list[Image.Image], columns: int = 2) -> Image.Image:
+    """Draw pictures in two rows."""
     width, height = SMALL
-    picture = Image.new("RGB", (2 * width, 2 * height))
+    picture = Image.new("RGB", (columns * width, 2 * height))
     for i, each in enumerate(pictures):
-        picture.paste(crop(each, SMALL), (i % 2 * width, i // 2 * height))
+        picture.paste(crop(each, SMALL), (i % columns * width, i // columns * height))
     return picture
+
+
+def draw_story(shots: Path) -> Image.Image:
+    """Draw the last map of a story, and pictures of its shots of the fire, in the order of the film."""
+    names = ("arrival/flight/rgb", "flames/near/rgb", "active/front/rgb", "infrared/wipe", "night/front/rgb")
+    paths = [max((shots / "growth/map").glob("*.png"))]
+    paths += [(own := sorted((shots / name).glob("*.png")))[len(own) // 2] for name in names]
+    return draw_sheet([open_picture(path) for path in paths], columns=3)
 
 
 def write_film(frames: list[Path], path: Path) -> None:
@@ -56,7 +64,7 @@ def write_film(frames: list[Path], path: Path) -> None:
 
 
 def main(out: Path, folder: Path) -> None:
-    """Write film.webp and the small pictures."""
+    """Write film.webp, story.webp and the small pictures."""
     drone, satellite = out / "film/drone", out / "film/satellite"
     write_film(sorted((drone / "rgb").glob("*.png")), folder / "film.webp")
     forest = open_picture(out / "forest/flank/rgb/flank_rgb_000001.png")
@@ -73,6 +81,7 @@ def main(out: Path, folder: Path) -> None:
         "story": open_picture(max((out / "story/shots/growth/map").glob("*.png"))),
         "maps": open_picture(out / "maps/intensity.png"),
     }
+    draw_story(out / "story/shots").save(folder / "story.webp", quality=80, method=6)
     for name, picture in small.items():
         crop(picture, SMALL).save(folder / f"small_{name}.webp", quality=80, method=6)
 

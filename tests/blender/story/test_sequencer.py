@@ -6,12 +6,15 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+import opentimelineio
 import pytest
 from firetwin.blender import compat
+from firetwin.cuts import otio
 from firetwin.story import sequencer, timeline
 from firetwin.story.captions import Caption
 from firetwin.story.sequencer import Project, Reel
 from firetwin.story.storyboard import CARD, Storyboard, StoryShot
+from firetwin.story.words import LETTERS, SAFE
 from firetwin_core import sensor
 
 START = datetime(2014, 9, 17, 23, tzinfo=UTC)
@@ -73,6 +76,12 @@ def _ends(strip):
     return first, first + length
 
 
+def _move(strip, frames):
+    """Move a strip as an artist does; the property has another name from 5.2 on."""
+    name = "content_start" if hasattr(strip, "content_start") else "frame_start"
+    setattr(strip, name, getattr(strip, name) + frames)
+
+
 def test_each_shot_text_and_dissolve_has_a_strip(cut, project):
     assert _places(cut) == {
         "title": (1, 1, 25),
@@ -104,6 +113,38 @@ def test_the_text_of_a_card_follows_the_dissolve_into_it(scene, project):
     assert _places(scene)["end text"] == (4, 25, 37)
 
 
+def _luminance(level):
+    """Relative luminance of a grey (WCAG 2.2)."""
+    return level / 12.92 if level <= 0.04045 else ((level + 0.055) / 1.055) ** 2.4
+
+
+def test_letters_are_readable_on_any_picture(cut):
+    """Contrast of WCAG 2.2 over white, the safe area of EBU R 95, and a least size at any resolution."""
+    for strip in cut.sequence_editor.strips:
+        if strip.type == "TEXT":
+            behind = 1.0 - strip.box_color[3] if strip.use_box else max(sequencer._DARK)
+            assert (1.0 + 0.05) / (_luminance(behind) + 0.05) >= 4.5, strip.name
+            assert strip.font_size >= LETTERS * SIZE[1]
+            assert all(SAFE <= part <= 1.0 - SAFE for part in strip.location)
+            assert strip.wrap_width <= 1.0 - 2.0 * SAFE
+
+
+def test_letters_of_other_scripts_are_not_boxes(scene, project):
+    words = {"title": "A fire", "chase": "Über Größe", "above": "火災"}
+    shown = [replace(each, words=words[each.span.shot.name]) for each in project.captions]
+    reels = [
+        replace(
+            each, span=replace(each.span, shot=replace(each.span.shot, caption=words[each.span.shot.name]))
+        )
+        for each in project.reels
+    ]
+    sequencer.set_up(scene)
+    sequencer.lay_out(scene, replace(project, captions=tuple(shown), reels=tuple(reels)))
+    fonts = {name: scene.sequence_editor.strips[f"{name} text"].font for name in words}
+    assert fonts["title"] == fonts["chase"] == compat.typeface()
+    assert fonts["above"] is None  # the built-in typefaces, which have these letters
+
+
 def test_a_still_is_moved_over(cut):
     above, scales = cut.sequence_editor.strips["above"], []
     for frame in (49, 97):
@@ -114,7 +155,7 @@ def test_a_still_is_moved_over(cut):
 
 def test_the_artist_s_cut_stays_and_shows_new_pictures(cut, project):
     strips = cut.sequence_editor.strips
-    strips["above"].frame_start += 40
+    _move(strips["above"], 40)
     strips["chase text"].text = "By drone"
     strips.remove(strips["mark"])
     finer = replace(project.reels[1], files=tuple(f"chase_{k}.png" for k in range(48)))
@@ -140,3 +181,44 @@ def test_strips_that_nobody_changed_follow_the_storyboard(cut, project):
         "chase text": (4, 13, 37),
         "mark": (6, 1, 37),
     }
+
+
+def _strips(cut):
+    """Shot that each frame shows: the strip of the highest channel, after a dissolve begins the next one."""
+    shown = []
+    for frame in range(1, cut.frame_end + 1):
+        there = [
+            each
+            for each in cut.sequence_editor.strips
+            if each.type in ("IMAGE", "COLOR", "CROSS") and _ends(each)[0] <= frame < _ends(each)[1]
+        ]
+        top = max(there, key=lambda each: each.channel, default=None)
+        shown.append(top and (top.input_2 if top.type == "CROSS" else top).name)
+    return shown
+
+
+def _played(timeline):
+    """Clip and picture of the film at each frame of the first track."""
+    played = []
+    for item in timeline.video_tracks()[0]:
+        at, length = item.source_range.start_time, round(item.source_range.duration.value)
+        is_clip = isinstance(item, opentimelineio.schema.Clip)
+        start = item.media_reference.available_range.start_time if is_clip else at
+        played += [
+            (item.name or None, round((at - start).value) + k if is_clip else k) for k in range(length)
+        ]
+    return played
+
+
+@pytest.mark.parametrize("moved", [0, -30, 20])
+def test_the_cut_for_other_programs_shows_the_strips(cut, moved):
+    strips = cut.sequence_editor.strips
+    _move(strips["above"], moved)
+    edit = sequencer.describe_cut(cut, "story.mp4")
+    timeline = opentimelineio.adapters.read_from_string(otio.text(edit), "otio_json")
+    played = _played(timeline)
+    shown = _strips(cut)
+    assert [name for name, _ in played] == shown[: len(played)]
+    assert not any(shown[len(played) :])
+    assert all(at == k for k, (name, at) in enumerate(played) if name)  # the film's frame at its own time
+    assert [each.name for each in timeline.tracks.markers] == ["ignition"]

@@ -1,6 +1,8 @@
 """Known runs: inputs of a frame of a growing run."""
 
+import itertools
 import tomllib
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -8,7 +10,12 @@ import whole_run
 from firetwin.errors import UsageError
 from firetwin.growing import follow, known_run
 from firetwin.run import content, readers
+from firetwin.scene.forest import stand
+from firetwin.shot import shot as shot_module
 from firetwin.shot.settings import scene_file
+from firetwin.shot.shot import Shot
+from firetwin.shot.source import ShotSource
+from firetwin.shot.surface import mesh_tolerance
 
 SCENE = """\
 run = "run"
@@ -83,6 +90,52 @@ def test_a_revision_stays_readable_after_watch_removed_it(tmp_path, monkeypatch)
     follow.shutil.rmtree(revision)
     np.testing.assert_array_equal(readers.open(kept).heat_flux(2), before)
     assert follow._keep(folder, tmp_path / "revisions") == kept
+
+
+@pytest.fixture
+def shared_aprons():
+    """Compute aprons, as the product shares them between times."""
+
+
+@pytest.fixture
+def known(run, tmp_path):
+    """Shots of one film with the first 2 and 3 times of a run."""
+    shots = []
+    for count in (2, 3):
+        place = tmp_path / str(count) / "run"
+        known_run.write(run, count, 1800.0, place, "film 1")
+        scene = SCENE.format(time="end = 2020-07-01T20:20:00Z", target=FIXED).replace('"run"', f'"{place}"')
+        (tmp_path / "scene.toml").write_text(scene)
+        shots.append(ShotSource(scene=str(tmp_path / "scene.toml")).shot())
+    return shots
+
+
+def test_trees_and_ground_do_not_depend_on_later_times(known):
+    before, after = (stand.grow(shot) for shot in known)
+    assert len(before.position)
+    for each in fields(before):
+        np.testing.assert_array_equal(getattr(before, each.name), getattr(after, each.name))
+    meshes = [mesh_tolerance.wanted(shot) for shot in known]
+    np.testing.assert_array_equal(meshes[0].tolerance, meshes[1].tolerance)
+    np.testing.assert_array_equal(meshes[0].fine, meshes[1].fine)
+
+
+def test_a_film_computes_its_land_once_and_each_time_has_its_fire(known, monkeypatch):
+    grounds = [shot.bare_ground for shot in known]
+    assert grounds[0].fields is grounds[1].fields
+    monkeypatch.setattr(content, "identity", lambda _: "")
+    expected = Shot(known[1].settings, known[1].run).bare_ground
+    assert expected.fields is not grounds[1].fields
+    for name in ("arrival", "burn_time", "burned"):
+        np.testing.assert_array_equal(getattr(grounds[1], name), getattr(expected, name))
+        assert (getattr(grounds[0], name) != getattr(grounds[1], name)).any()
+
+
+def test_what_a_film_keeps_is_computed_again_for_other_settings(known):
+    numbers = itertools.count()
+    other = known[0].with_settings(replace(known[0].settings, seed=7))
+    found = [shot_module.cached_in_film("test", each, lambda: next(numbers)) for each in (*known, other)]
+    assert found == [0, 0, 1]
 
 
 def test_the_description_comes_back():

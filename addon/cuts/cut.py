@@ -92,12 +92,19 @@ class ImageSequence:
 
 @dataclass(frozen=True)
 class Clip:
-    """Frames of a stretch on the timeline: `length` frames from number `first`."""
+    """Frames of a stretch on the timeline: `length` frames from number `first`.
+
+    Attributes
+    ----------
+    name
+        Name of the clip; empty: the camera's.
+    """
 
     film: CameraFilm
     stretch: Stretch
     first: int
     length: int
+    name: str = ""
 
     @property
     def end(self) -> int:
@@ -108,6 +115,11 @@ class Clip:
     def position(self) -> int:
         """Position of the first frame in the film, from 0."""
         return self.stretch.position + self.first - self.stretch.first
+
+    @property
+    def title(self) -> str:
+        """Name of the clip, or of its camera."""
+        return self.name or self.film.camera
 
 
 @dataclass(frozen=True)

@@ -46,7 +46,7 @@ def text(edit: Edit) -> str:
 
 def _clip(item: ET.Element, clip: Clip, rate: Fraction, file: str, written: set[str]) -> None:
     """Fill a clip; the first clip of a film describes the file, later ones refer to it."""
-    _add(item, "name", clip.film.camera)
+    _add(item, "name", clip.title)
     _add(item, "enabled", "TRUE")
     _add(item, "duration", clip.film.length)
     _rate(item, rate)

@@ -64,7 +64,7 @@ def _clip(clip: Clip, rate: Fraction) -> dict[str, Any]:
         for key, each in source.sequences.items()
         if each.frames.issuperset(range(stretch.first, stretch.last + 1))
     }
-    return _item("Clip.2", source.camera, _range(start + clip.position, clip.length, rate)) | {
+    return _item("Clip.2", clip.title, _range(start + clip.position, clip.length, rate)) | {
         "media_references": {FILM: film, **sequences},
         "active_media_reference_key": FILM,
     }
