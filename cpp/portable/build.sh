@@ -5,24 +5,34 @@
 #
 #   cpp/portable/build.sh                 build everything
 #   cpp/portable/build.sh --libraries     build only the libraries
+#   cpp/portable/build.sh --windows       build wheels for 64-bit Windows, in build/portable/windows/wheels
 #
-# Needs g++-12, cmake, ninja, make, dpkg-deb, curl, bzip2, xz, and Python 3 with venv. FIRETWIN_PORTABLE replaces the
-# folder build/portable; FIRETWIN_JOBS is the number of parallel compilers.
+# Needs g++-12, cmake, ninja, make, dpkg-deb, curl, bzip2, xz, and Python 3 with venv; for Windows, mingw-w64 instead of g++-12,
+# and maven. FIRETWIN_PORTABLE replaces the folder build/portable; FIRETWIN_JOBS is the number of parallel compilers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 here=$PWD/cpp/portable
 portable=$(realpath -m "${FIRETWIN_PORTABLE:-build/portable}")
-export FIRETWIN_PORTABLE=$portable
 pythons="3.11 3.13"
+toolchain=$here/toolchain.cmake compilers="gcc-12 g++-12" packages=g++-12
+if [[ ${1:-} == --windows ]]; then
+  shift
+  mkdir -p "$portable/sources" "$portable/windows"
+  ln -sfn ../sources "$portable/windows/sources"
+  portable=$portable/windows toolchain=$here/windows/toolchain.cmake
+  compilers="x86_64-w64-mingw32-g++-posix mvn" packages="g++-mingw-w64-x86-64-posix maven"
+  export FIRETWIN_SYSTEM=windows
+fi
+export FIRETWIN_PORTABLE=$portable
 
 # shellcheck source=cpp/portable/logged.sh
 source "$here/logged.sh"
 
 say() { echo "portable: $*" >&2; }
 
-for command in gcc-12 g++-12 cmake ninja make dpkg-deb curl bzip2 xz python3; do
+for command in $compilers cmake ninja make dpkg-deb curl bzip2 xz python3; do
   if ! command -v "$command" >/dev/null; then
-    say "$command is missing; on Debian: apt-get install g++-12 cmake ninja-build make dpkg curl bzip2 xz-utils python3-venv"
+    say "$command is missing; on Debian: apt-get install $packages cmake ninja-build make dpkg curl bzip2 xz-utils python3-venv"
     exit 1
   fi
 done
@@ -50,7 +60,7 @@ make_tools() {
 compile() {
   local build=$portable/module python
   # --fresh: the folder may be from another checkout.
-  cmake --fresh -S . -B "$build" -G Ninja --toolchain "$here/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
+  cmake --fresh -S . -B "$build" -G Ninja --toolchain "$toolchain" -DCMAKE_BUILD_TYPE=Release \
     -DFIRETWIN_LIBRARIES=portable -DFIRETWIN_VERSION="$version" -DFIRETWIN_PYTHONS="${pythons// /;}" \
     -DFIRETWIN_QUICK_BUILD=ON -DFIRETWIN_PYTHON_HEADERS="$portable" -Dpybind11_DIR="$("$portable/tools/bin/python" -m pybind11 --cmakedir)"
   cmake --build "$build" -j "${FIRETWIN_JOBS:-$(nproc)}"

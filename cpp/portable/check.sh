@@ -58,15 +58,33 @@ check_sbom() {
   [[ $named == "$licensed" ]] || fail "the list of libraries differs from the licences: $(diff <(echo "$named") <(echo "$licensed"))"
 }
 
+check_windows() {
+  local list others
+  list=$(x86_64-w64-mingw32-objdump -p "$module")
+  # Windows' own libraries and Python's.
+  others=$(sed -n 's/.*DLL Name: //p' <<<"$list" | grep -Eiv '^(kernel32|msvcrt|user32|advapi32|shell32|ws2_32|ole32|bcrypt|python3[0-9]+)\.dll$' || true)
+  [[ -z $others ]] || fail "depends on libraries that a system may not have: $others"
+  echo "libraries: $(sed -n 's/.*DLL Name: //p' <<<"$list" | tr '\n' ' ')"
+  others=$(sed -n '/Ordinal\/Name Pointer/,/^$/s/^.*\] //p' <<<"$list" | sed 1d)
+  [[ $others == PyInit_firetwin_core ]] || fail "exports more than PyInit_firetwin_core: ${others//$'\n'/ }"
+  check_sbom
+}
+
 for wheel in "$portable"/wheels/firetwin_core-*.whl; do
   echo "== $(basename "$wheel"), $(stat --format=%s "$wheel") bytes"
+  unpacked=$(mktemp -d)
+  trap 'rm -rf "$unpacked"' EXIT
+  python3 -m zipfile --extract "$wheel" "$unpacked"
+  if [[ $wheel == *-win_amd64.whl ]]; then
+    module=$(echo "$unpacked"/firetwin_core.*.pyd)
+    check_windows
+    rm -rf "$unpacked"
+    continue
+  fi
   show=$("$portable/tools/bin/auditwheel" show "$wheel")
   echo "$show"
   tr '\n' ' ' <<<"$show" | grep -qE 'consistent with the following platform tag: +"manylinux_2_(1[0-9]|2[0-8])_x86_64"' ||
     fail "auditwheel does not call it manylinux_2_28 or older"
-  unpacked=$(mktemp -d)
-  trap 'rm -rf "$unpacked"' EXIT
-  python3 -m zipfile --extract "$wheel" "$unpacked"
   module=$(echo "$unpacked"/firetwin_core.*.so)
   check_libraries
   check_glibc

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Downloads the files of sources.txt into a folder, and checks their SHA-256: all, or those with the names given.
 # They come from the Debian mirrors that apt is set up to use; FIRETWIN_MIRRORS lists others (URLs separated by blanks).
-# pip downloads source packages of PyPI. Exit status 77: a file is not available.
+# pip downloads source packages of PyPI, and mvn (Debian's maven) packages of Maven Central. Exit status 77: a file is not
+# available.
 set -euo pipefail
 folder=${1:?usage: fetch.sh FOLDER [NAME...]}
 shift
@@ -40,6 +41,17 @@ download_sdist() { # name version sha256
   rm -rf "$folder/venv"
 }
 
+download_maven() { # group:artifact:version:jar:classifier
+  mvn --quiet --batch-mode dependency:copy -Dartifact="$1" -DoutputDirectory="$folder" >&2
+}
+
+file_name() { # path in sources.txt
+  case $1 in
+    maven:*) awk -F: '{ print $3 "-" $4 "-" $6 "." $5 }' <<<"$1" ;;
+    *) basename "${1#pypi:}" ;;
+  esac
+}
+
 mapfile -t urls < <(mirrors)
 missing=0
 while read -r name version path sha256; do
@@ -49,12 +61,14 @@ while read -r name version path sha256; do
   if (($#)) && [[ " $* " != *" $name "* ]]; then
     continue
   fi
-  file=$folder/$(basename "${path#pypi:}")
+  file=$folder/$(file_name "$path")
   if matches "$file" "$sha256"; then
     continue
   fi
   if [[ $path == pypi:* ]]; then
     download_sdist "$name" "$version" "$sha256" || true
+  elif [[ $path == maven:* ]]; then
+    download_maven "${path#maven:}" || true
   else
     download "$path" "$file" "$sha256" || true
   fi

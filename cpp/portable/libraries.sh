@@ -7,11 +7,12 @@
 #   libraries.sh PORTABLE --keys       list each library and its key
 #   libraries.sh PORTABLE --missing    list the entries of sources.txt to download: libraries without archive, and tools
 #
-# PORTABLE is the absolute folder with sources/ and sysroot/. FIRETWIN_JOBS is the number of parallel compilers.
+# PORTABLE is the absolute folder with sources/ and sysroot/. FIRETWIN_JOBS is the number of parallel compilers, and
+# FIRETWIN_SYSTEM=windows builds for Windows.
 set -euo pipefail
 usage="usage: libraries.sh PORTABLE [--keys | --missing]"
 portable=${1:?$usage}
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 prefix=$portable/libraries
 export FIRETWIN_PORTABLE=$portable
 jobs=${FIRETWIN_JOBS:-$(nproc)}
@@ -19,9 +20,26 @@ jobs=${FIRETWIN_JOBS:-$(nproc)}
 anywhere=@FIRETWIN_LIBRARIES@ any_sysroot=@FIRETWIN_SYSROOT@
 
 # shellcheck source=cpp/portable/logged.sh
-source "$here/logged.sh"
+source "$scripts/logged.sh"
 # shellcheck source=cpp/portable/recipes.sh
-source "$here/recipes.sh"
+source "$scripts/recipes.sh"
+case ${FIRETWIN_SYSTEM:-linux} in
+  linux) here=$scripts compiler=gcc-12 own=("$scripts/old_glibc.c") ;;
+  windows)
+    here=$scripts/windows compiler=x86_64-w64-mingw32-gcc-posix own=()
+    # shellcheck source=cpp/portable/windows/recipes.sh
+    source "$here/recipes.sh"
+    ;;
+esac
+
+# Whether a line of sources.txt is a tool of this system.
+is_tool() { # name
+  case ${FIRETWIN_SYSTEM:-linux}:$1 in
+    *:\#* | linux:windows-*) return 1 ;;
+    linux:* | windows:windows-* | windows:nasm) ;;
+    *) return 1 ;;
+  esac
+}
 
 unpack() { # archive
   case $1 in
@@ -38,14 +56,14 @@ while read -r name _ path sum; do
   if declare -F "build_$name" >/dev/null; then
     libraries+=("$name")
     file[$name]=$portable/sources/$(basename "${path#pypi:}") sha256[$name]=$sum
-  elif [[ -n $name && $name != \#* ]]; then
+  elif [[ -n $name ]] && is_tool "$name"; then
     others+=("$name $sum")
   fi
-done <"$here/sources.txt"
+done <"$scripts/sources.txt"
 
 tools=$({
-  gcc-12 --version
-  cat "$here/toolchain.cmake" "$here/old_glibc.c"
+  "$compiler" --version
+  cat "$here/toolchain.cmake" "${own[@]}"
   printf '%s\n' "${others[@]}"
   declare -f with_cmake with_configure with_sources copy_headers unpack
 } | sha256sum)
@@ -123,7 +141,7 @@ targets() {
   echo ".PHONY: ${libraries[*]}"
   echo "all: ${libraries[*]}"
   for name in "${libraries[@]}"; do
-    printf '%s: %s\n\t@"%s" "%s" --one %s\n' "$name" "${needs[$name]:-}" "$here/libraries.sh" "$portable" "$name"
+    printf '%s: %s\n\t@"%s" "%s" --one %s\n' "$name" "${needs[$name]:-}" "$scripts/libraries.sh" "$portable" "$name"
   done
 }
 
@@ -147,8 +165,10 @@ case ${2:-} in
     if [[ ! -f $stamp || $(<"$stamp") != "$want" ]]; then
       rm -rf "$prefix" "$portable/licenses" "$stamp"
       mkdir -p "$portable/stamps"
-      gcc-12 --sysroot="$portable/sysroot" -O2 -fPIC -ffunction-sections -Wall -Wextra -c \
-        "$here/old_glibc.c" -o "$portable/old_glibc.o"
+      if [[ $compiler == gcc-12 ]]; then
+        gcc-12 --sysroot="$portable/sysroot" -O2 -fPIC -ffunction-sections -Wall -Wextra -c \
+          "$here/old_glibc.c" -o "$portable/old_glibc.o"
+      fi
       make --no-print-directory --jobs "$jobs" --file <(targets) all
       echo "$want" >"$stamp"
     fi

@@ -9,6 +9,7 @@ The wheels go to PORTABLE/wheels.
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -21,7 +22,9 @@ from pyproject_metadata import StandardMetadata
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-PLATFORM = "manylinux_2_28_x86_64"  # verified by auditwheel in check.sh
+WINDOWS = os.environ.get("FIRETWIN_SYSTEM") == "windows"
+PLATFORM = "win_amd64" if WINDOWS else "manylinux_2_28_x86_64"  # verified by check.sh
+COMPILER = "x86_64-w64-mingw32-g++-posix" if WINDOWS else "g++-12"
 
 
 def project(folder: Path) -> StandardMetadata:
@@ -62,7 +65,7 @@ def built_in(licenses: Path) -> list[sbom.Library]:
     """Return the libraries in the module: those with a licence, the C++ library, and pybind11's headers."""
     names = {path.name for path in licenses.iterdir()}
     gcc = subprocess.run(
-        ["g++-12", "-dumpfullversion"], check=True, capture_output=True, text=True
+        [COMPILER, "-dumpfullversion"], check=True, capture_output=True, text=True
     ).stdout.strip()
     tools = dict(line.split("==") for line in (HERE / "tools.txt").read_text().split())
     own = [sbom.Library("libstdc++", gcc), sbom.Library("pybind11", tools["pybind11"])]
@@ -79,7 +82,7 @@ def core(stage: Path, python: str, portable: Path) -> None:
     tag = "cp" + python.replace(".", "")
     info = finish(stage, metadata, licenses | {"LICENSE": ROOT / "LICENSE"}, f"{tag}-{tag}-{PLATFORM}")
     (info / "sboms").mkdir()
-    modules = [path.name for path in stage.glob("*.so")]
+    modules = [path.name for path in stage.glob("firetwin_core.*")]
     bom = sbom.document(metadata.name, str(metadata.version), built_in(libraries), modules)
     (info / "sboms" / "libraries.cdx.json").write_text(bom, encoding="utf-8")
     close(stage, portable / "wheels")

@@ -119,6 +119,11 @@ def check_places(resources):
         print(f"{name}: {place.relative_to(resources)}")
 
 
+def scratch():
+    """Make a temporary folder; Windows keeps files in it that are mapped or loaded until Blender ends."""
+    return tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+
+
 def cycle(bpy, zipped, resources, disable_first):
     """Install, use, disable, enable, and uninstall."""
     clean, clean_files = state(bpy), files(resources)
@@ -131,7 +136,7 @@ def cycle(bpy, zipped, resources, disable_first):
     new = sorted(files(resources) - clean_files)
     size = sum((resources / name).stat().st_size for name in new)
     print(f"installed: {len(new)} files, {size} bytes")
-    with tempfile.TemporaryDirectory() as folder:
+    with scratch() as folder:
         use(bpy, Path(folder))
     bpy.ops.wm.read_factory_settings(use_empty=True)  # switches add-ons off, as a new start does
     assert bpy.ops.preferences.addon_enable(module=NAME) == {"FINISHED"}
@@ -146,15 +151,15 @@ def cycle(bpy, zipped, resources, disable_first):
     # Blender forgets the modules of an extension that is uninstalled while it is on, and only of such a one.
     same(clean | ({"modules": after["modules"]} if disable_first else {}), after)
     left = files(resources) - clean_files
-    if sys.platform == "win32":  # a library that was loaded stays until Blender's next start
-        left = {name for name in left if not name.endswith(".pyd")}
+    if sys.platform == "win32":  # Blender marks loaded libraries, and removes them at its next start
+        left = {name for name in left if "stale" not in name}
     assert not left, f"files left behind: {sorted(left)}"
     print("uninstalled: no file, class, property, operator, handler or key is left")
 
 
 def main(zipped):
     """Two rounds: uninstalled while on, and after it was switched off."""
-    with tempfile.TemporaryDirectory() as resources:
+    with scratch() as resources:
         os.environ["BLENDER_USER_RESOURCES"] = resources
         import bpy
         import numpy as np  # noqa: F401

@@ -1,0 +1,31 @@
+# Debian's mingw-w64 (GCC 12, POSIX threads), the libraries of build/portable/windows, and Windows' own DLLs.
+if(DEFINED ENV{FIRETWIN_PORTABLE})
+  set(portable "$ENV{FIRETWIN_PORTABLE}")
+else()
+  get_filename_component(portable "${CMAKE_CURRENT_LIST_DIR}/../../../build/portable/windows" ABSOLUTE)
+endif()
+
+set(CMAKE_SYSTEM_NAME Windows)
+set(CMAKE_SYSTEM_PROCESSOR AMD64)
+set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
+set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
+set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
+set(CMAKE_PREFIX_PATH "${portable}/libraries")
+set(CMAKE_FIND_ROOT_PATH "${portable}/libraries" /usr/x86_64-w64-mingw32)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(CMAKE_FIND_USE_PACKAGE_REGISTRY OFF)
+set(CMAKE_FIND_USE_SYSTEM_PACKAGE_REGISTRY OFF)
+set(ENV{PKG_CONFIG_LIBDIR} "${portable}/libraries/lib/pkgconfig")
+
+# -muse-unaligned-vector-move: GCC assumes stacks aligned to 32 bytes for AVX, which Windows does not have (GCC bug 54412).
+set(common "-ffunction-sections -fdata-sections -D_WIN32_WINNT=0x0A00 -DNOMINMAX -D_USE_MATH_DEFINES \
+-Wa,-mbig-obj -Wa,-muse-unaligned-vector-move")
+set(CMAKE_C_FLAGS_INIT "${common}")
+set(CMAKE_CXX_FLAGS_INIT "${common}")
+set(link "-static -Wl,--gc-sections")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "${link}")
+set(CMAKE_SHARED_LINKER_FLAGS_INIT "${link}")
+set(CMAKE_MODULE_LINKER_FLAGS_INIT "${link}")
