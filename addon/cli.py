@@ -1,7 +1,8 @@
 """Command line: finds the commands, runs one, and reports its error.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage, 130:
-Ctrl-C, 143: SIGTERM. Heavy modules are imported on demand, so that help and usage errors answer at once.
+Ctrl-C, 143: SIGTERM, 149: Ctrl-Break. Heavy modules are imported on demand, so that help and usage errors
+answer at once.
 """
 
 from __future__ import annotations
@@ -36,7 +37,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
     arguments = parse(list(sys.argv[1:] if argv is None else argv))
     if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="surrogateescape")  # print file names byte for byte
+        if sys.platform == "win32":
+            sys.stdout.reconfigure(encoding="utf-8")  # its code pages lack most letters of file names
+        else:
+            sys.stdout.reconfigure(errors="surrogateescape")  # print file names byte for byte
     try:
         for each in (*arguments.extensions, find_commands()[arguments.command]):
             if (status := each.run(arguments)) is not None:
@@ -87,7 +91,7 @@ def parse(words: list[str]) -> argparse.Namespace:
     if words and words[0] in commands:
         rest, options = commands[words[0]].prepare(words[1:])
         words = [words[0], *rest]
-    arguments = _parser(commands).parse_args(words)
+    arguments = _parser(commands, words).parse_args(words)
     arguments.options, arguments.extensions = options, find_extensions(arguments.command)
     return arguments
 
@@ -119,35 +123,45 @@ def _report(error: Exception) -> int:
     return 1
 
 
-def _parser(commands: dict[str, Command]) -> argparse.ArgumentParser:
-    """Define the command line."""
-    raw = argparse.RawDescriptionHelpFormatter
+def _parser(commands: dict[str, Command], words: Sequence[str] | None = None) -> argparse.ArgumentParser:
+    """Define the command line; commands that are not among its words have only a name and a summary."""
     parser = _Parser(
         prog="firetwin",
         description="Turn the output of a fire-atmosphere model into a Blender scene, pictures and films.",
         epilog=_EPILOG,
-        formatter_class=raw,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="show the versions and exit")
     common = _Parser(add_help=False)
     common.add_argument("--debug", action="store_true", help="show a traceback when something fails")
     parsers = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for each in commands.values():
-        detail = each.detail if isinstance(each.detail, str) else each.detail()
-        extensions = find_extensions(each.name)
-        details = [
-            f"{each.summary[0].upper()}{each.summary[1:]}.",
-            detail,
-            *(one.detail for one in extensions),
-        ]
-        text = "\n\n".join(filter(None, details))
-        inner = parsers.add_parser(
-            each.name, help=each.summary, description=text, parents=[common], formatter_class=raw
-        )
-        each.add(inner)
-        for extension in extensions:
-            extension.add(inner)
+        if words is None or each.name in words:
+            _add_command(parsers, each, common)
+        else:
+            parsers.add_parser(each.name, help=each.summary, add_help=False)
     return parser
+
+
+def _add_command(parsers: argparse._SubParsersAction, command: Command, common: _Parser) -> None:
+    """Add a command with its arguments and its help."""
+    detail = command.detail if isinstance(command.detail, str) else command.detail()
+    extensions = find_extensions(command.name)
+    details = [
+        f"{command.summary[0].upper()}{command.summary[1:]}.",
+        detail,
+        *(one.detail for one in extensions),
+    ]
+    parser = parsers.add_parser(
+        command.name,
+        help=command.summary,
+        description="\n\n".join(filter(None, details)),
+        parents=[common],
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    command.add(parser)
+    for extension in extensions:
+        extension.add(parser)
 
 
 class _Parser(argparse.ArgumentParser):

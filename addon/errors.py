@@ -38,6 +38,7 @@ DISK_FULL = (
 )
 _LONGEST = 300  # characters of a message of another library
 _LITTLE = 1 << 22  # bytes, below which a disk counts as full
+_OPEN = (5, 32)  # Windows' errors for files that a program has open
 _NO_ROOM = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
 
 
@@ -94,7 +95,8 @@ def writing(path: str | PathLike[str]) -> Iterator[None]:
     except OSError as error:
         if disk_is_full(error):
             raise full_disk_error(path) from error
-        reason = f"cannot be written ({_reason(error)}); choose another folder"
+        remedy = "close programs that show it, or " if getattr(error, "winerror", 0) in _OPEN else ""
+        reason = f"cannot be written ({_reason(error)}); {remedy}choose another folder"
         raise input_error(path, reason) from error
     except sqlite3.OperationalError as error:
         silent = "disk I/O error" in str(error) and is_nearly_full(Path(path))
@@ -139,7 +141,7 @@ def reading(path: str | PathLike[str], kind: str = "") -> Iterator[None]:
             raise full_disk_error(path) from error
         if isinstance(error, OSError) and isinstance(error.filename, str):
             path = error.filename
-        reason = read_fault(error, kind).replace(f"'{path}'", "it")
+        reason = read_fault(error, kind).replace(f"'{path}' not", "it is not").replace(f"'{path}'", "it")
         raise input_error(path, reason) from error
 
 
@@ -162,7 +164,7 @@ def refuse_odd(path: str | PathLike[str]) -> None:
 def read_fault(error: Exception, kind: str = "") -> str:
     """Describe why a file of a `kind`, such as "GeoTIFF", cannot be read, and the remedy."""
     text = getattr(error, "strerror", None) or str(error.__cause__ or error)
-    why = " ".join(text.split())[:_LONGEST] or type(error).__name__
+    why = " ".join(text.split())[:_LONGEST].rstrip(".") or type(error).__name__
     for fault, text in _FAULTS.items():
         if isinstance(error, fault):
             return text

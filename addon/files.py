@@ -6,6 +6,8 @@ import contextlib
 import json
 import os
 import shutil
+import sys
+import time
 import uuid
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -16,6 +18,7 @@ from .errors import input_error, refuse_odd, writing
 
 _MARKS = b",", b"[", b"{", b"<"  # each begins a value of JSON, XML or CSV
 _BLOCK = 1 << 22  # bytes
+_WAITS = (0.05, 0.1, 0.2, 0.4, 0.8) if sys.platform == "win32" else ()  # s
 
 
 def publish(part: Path, path: Path, durable: bool = True) -> None:
@@ -35,12 +38,28 @@ def publish(part: Path, path: Path, durable: bool = True) -> None:
     with writing(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         if not durable:
-            part.replace(path)
+            replace(part, path)
             return
         with part.open("r+b") as file:  # Windows cannot flush through a read-only handle
             os.fsync(file.fileno())
-        part.replace(path)
+        replace(part, path)
         _sync_folder(path.parent)
+
+
+def replace(part: Path, path: Path) -> None:
+    """Rename a file to `path`, replacing a file there.
+
+    Windows refuses this while a program has either file open. It is repeated for 1.5 s, as virus scanners and
+    indexers open new files for moments.
+    """
+    for seconds in _WAITS:
+        try:
+            part.replace(path)
+        except PermissionError:
+            time.sleep(seconds)
+        else:
+            return
+    part.replace(path)
 
 
 def temporary_path(path: Path) -> Path:
@@ -87,9 +106,9 @@ def write_cached(path: Path, data: bytes) -> None:
     write(path, lambda part: part.write_bytes(data), durable=False)
 
 
-def write_text(path: Path, text: str, newline: str | None = None) -> None:
-    """Write a text atomically, as UTF-8 (see `write`)."""
-    write(path, lambda part: part.write_text(text, encoding="utf-8", newline=newline))
+def write_text(path: Path, text: str) -> None:
+    """Write a text atomically, as UTF-8, with the same line ends on all systems (see `write`)."""
+    write(path, lambda part: part.write_text(text, encoding="utf-8", newline="\n"))
 
 
 def read_text(

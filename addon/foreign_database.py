@@ -118,6 +118,8 @@ class ForeignDatabase:
                 reason = f"takes more than {limits.SQLITE_SECONDS} s to read; copy its tables to a new file"
                 raise input_error(self.path, reason) from error
             raise
+        except MemoryError:  # the limits bound what sound files need
+            raise input_error(self.path, "is damaged or incomplete; export it again") from None
 
     def _too_large(self) -> InputError:
         reason = f"a table has more data than a file of {self._size:,} bytes can store; it may be an attack"

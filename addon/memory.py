@@ -6,6 +6,7 @@ import contextlib
 import ctypes
 import functools
 import os
+import sys
 from collections.abc import Callable, Iterator
 
 _ARENAS = "MALLOC_ARENA_MAX"
@@ -76,8 +77,49 @@ def _set_soft_limit(size: int) -> tuple[int, int] | None:
     return None
 
 
+def free() -> int:
+    """Return the memory that the system could give to processes, bytes; 0 if it does not report it."""
+    if sys.platform == "win32":
+        status = _MemoryStatus(length=ctypes.sizeof(_MemoryStatus))
+        ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
+        return int(status.available)
+    try:
+        return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, OSError, ValueError):
+        return 0
+
+
+class _MemoryStatus(ctypes.Structure):
+    """Windows' MEMORYSTATUSEX."""
+
+    _fields_ = (
+        ("length", ctypes.c_uint32),
+        ("load", ctypes.c_uint32),
+        ("total", ctypes.c_uint64),
+        ("available", ctypes.c_uint64),
+        ("rest", ctypes.c_uint64 * 5),
+    )
+
+
+class _MemoryCounters(ctypes.Structure):
+    """Windows' PROCESS_MEMORY_COUNTERS."""
+
+    _fields_ = (
+        ("length", ctypes.c_uint32),
+        ("faults", ctypes.c_uint32),
+        ("peak", ctypes.c_size_t),
+        ("rest", ctypes.c_size_t * 7),
+    )
+
+
 def peak() -> int:
     """Return the peak memory of this process, bytes; 0 if the system does not report it."""
+    if sys.platform == "win32":
+        system, counters = ctypes.windll.kernel32, _MemoryCounters()
+        size, process = ctypes.sizeof(counters), ctypes.c_void_p(-1)  # this process
+        return (
+            int(counters.peak) if system.K32GetProcessMemoryInfo(process, ctypes.byref(counters), size) else 0
+        )
     with contextlib.suppress(OSError), open("/proc/self/status", encoding="ascii") as file:
         return next((1024 * int(line.split()[1]) for line in file if line.startswith("VmHWM")), 0)
     return 0

@@ -70,9 +70,9 @@ def write(path: Path, put: Callable[[Path], object], overwrite: bool = False) ->
         publish(folder / path.name, path, overwrite)
 
 
-def write_text(path: Path, text: str, overwrite: bool = False, newline: str | None = None) -> None:
-    """Write a text by the rule, as UTF-8 (see `write`)."""
-    write(path, lambda part: part.write_text(text, encoding="utf-8", newline=newline), overwrite)
+def write_text(path: Path, text: str, overwrite: bool = False) -> None:
+    """Write a text by the rule, as UTF-8, with the same line ends on all systems (see `write`)."""
+    write(path, lambda part: part.write_text(text, encoding="utf-8", newline="\n"), overwrite)
 
 
 def publish(part: Path, path: Path, overwrite: bool = False) -> None:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from . import output, unfinished, written
+from . import files, output, unfinished, written
 from .errors import InputError, input_error
 
 
@@ -83,7 +83,7 @@ def _move(part: Path, out: Path, overwrite: bool, whole: bool) -> None:
     for folder in (each for each in sorted(part.rglob("*")) if each.is_dir()):
         (out / folder.relative_to(part)).mkdir(exist_ok=True)
     for name in names:
-        (part / name).replace(out / name)
+        files.replace(part / name, out / name)
     folders = {name.split("/")[0] for name in names if "/" in name}
     for name in sorted(before.keys() - set(names), reverse=True):
         if whole or name.split("/")[0] in folders:

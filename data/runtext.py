@@ -59,7 +59,7 @@ class TextWriter:
         digits = 17 if values.dtype == np.float64 else 9
         rows = np.atleast_2d(values) if values.ndim == 2 else values[:, None]
         text = "\n".join(" ".join(f"{value:.{digits}g}" for value in row) for row in rows.tolist())
-        (self.folder / f"{name}.txt").write_text(text + "\n", encoding="ascii")
+        (self.folder / f"{name}.txt").write_text(text + "\n", encoding="ascii", newline="\n")
 
     @contextmanager
     def series(self, names: Sequence[str], times: int, shape: tuple[int, int]) -> Iterator[Put]:
@@ -71,7 +71,7 @@ class TextWriter:
         def put(index: int, fields: Sequence[NDArray]) -> None:
             for name, values in zip(names, fields, strict=True):
                 path = self.folder / name / f"{index:0{digits}d}.txt"
-                path.write_text(self._text(values, self.STEPS[name]), encoding="ascii")
+                path.write_text(self._text(values, self.STEPS[name]), encoding="ascii", newline="\n")
 
         yield put
 

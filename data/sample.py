@@ -1,6 +1,5 @@
 """Expand the stored sample fire to a run folder: `firetwin sample OUT`."""
 
-import tomllib
 from collections.abc import Callable, Iterator
 from datetime import timedelta
 from pathlib import Path
@@ -8,8 +7,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import input_error
+from ..errors import InputError, input_error
+from ..files import read_text
+from ..limits import SETTINGS_BYTES
 from ..staging import staging
+from ..toml_text import loads
 from . import air, members, release, runtext, stored, weather
 from .grid import (
     FUEL_CELL_SIZE,
@@ -97,7 +99,7 @@ def _write(
             put(done, values)
             if progress:
                 progress(done + 1, len(minutes))
-    (out / "run.toml").write_text(_run_toml(minutes, which), encoding="utf-8")
+    (out / "run.toml").write_text(_run_toml(minutes, which), encoding="utf-8", newline="\n")
 
 
 def frames_of(sample: stored.Sample, minutes: NDArray[np.int64]) -> Iterator[tuple[NDArray, ...]]:
@@ -137,9 +139,9 @@ def _refuse_strangers(out: Path) -> None:
     if not out.exists() or (out.is_dir() and not any(out.iterdir())):
         return
     try:
-        run = tomllib.loads((out / "run.toml").read_text(encoding="utf-8"))
+        run = loads(out, read_text(out / "run.toml", most=SETTINGS_BYTES))
         ours = str(run.get("name")).startswith(NAME) and run.get("synthetic") is True
-    except (OSError, ValueError):
+    except (OSError, ValueError, InputError):
         ours = False
     if not ours:
         raise input_error(out, "exists and is not a sample run; name another folder")
@@ -214,4 +216,11 @@ wind_east = "m/s"
 wind_north = "m/s"
 surface_fuel = "kg/m2"
 canopy_fuel = "kg/m2"
+
+[source]
+assumptions = [
+  "terrain: fitted to public spot heights, with invented relief between them",
+  "fuels and weather: invented",
+  "spread: simulated, tuned to the reported areas",
+]
 """

@@ -6,6 +6,8 @@
 from __future__ import annotations
 
 import json
+import os
+import sys
 import time
 from pathlib import Path
 
@@ -19,10 +21,16 @@ ROOMS = ("unit", "blender", "render", "system")
 
 hypothesis.settings.load_profile("firetwin")
 
-TIMES = Path(__file__).parents[1] / "build/tests"
+BUILD = Path(__file__).parents[1] / "build"
+TIMES = BUILD / "tests"
 """Times of the last runs: processor seconds of files (for tests/touched.py), reference seconds of tests."""
 _account, _speed = Account(), Speed()
 _before = pytest.StashKey[float]()  # processor seconds before a phase of a test
+
+if sys.dont_write_bytecode:  # worker and child processes would compile all modules again
+    sys.dont_write_bytecode, sys.pycache_prefix = False, str(BUILD / "bytecode")
+    os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
 def pytest_addoption(parser):

@@ -68,7 +68,7 @@ fuzzers() {
   local fuzz=tests/system/fuzz
   daily 2 "$fuzz cpp/base cpp/io cpp/run cpp/tiles" $fuzz/run.sh --runs 20000
   daily 1 "$fuzz/tilesets.py addon/tiles cpp/tiles" .venv/bin/python $fuzz/tilesets.py --runs 10000
-  daily 2 "$fuzz/files.py addon/run addon/stations addon/camera_import" .venv/bin/python $fuzz/files.py --seconds 10
+  daily 2 "$fuzz/files.py addon/run addon/stations addon/camera_import addon/story" .venv/bin/python $fuzz/files.py --seconds 10
   daily 2 "$fuzz/convert.py addon/run" .venv/bin/python $fuzz/convert.py --each 200
 }
 
@@ -99,7 +99,9 @@ else
   slow 2 "${pytest[@]}" tests/unit -m hypothesis --hypothesis-profile thorough -o budget_factor=10
   fuzzers
   daily 1 "tests/system/fuzz/scenes.py addon/shot" .venv/bin/python tests/system/fuzz/scenes.py --builds 8 --seconds 50
-  daily 8 "tests/system/chaos addon/leases.py addon/files.py addon/render addon/farm addon/tiles addon/smoke" \
+  writers="addon/leases.py addon/files.py addon/output.py addon/staging.py addon/unfinished.py addon/written.py"
+  jobs="addon/render addon/farm addon/tiles addon/smoke addon/export addon/delivery addon/growing addon/dataset addon/story"
+  daily 8 "tests/system/chaos $writers $jobs" \
     .venv/bin/python tests/system/chaos/chaos.py --minutes 5
   title="what tests/run.sh leaves out"
 fi

@@ -12,6 +12,7 @@ import functools
 import json
 import re
 import sys
+from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -98,16 +99,19 @@ def binding(path: Path) -> set[str]:
 
 
 @functools.cache
-def sources() -> list[Path]:
-    """Find all modules of the package."""
-    return [path for folder in PACKAGES for path in (ROOT / folder).rglob("*.py")]
+def importers() -> dict[str, set[str]]:
+    """Find the full names of the package's modules that import each name."""
+    found: dict[str, set[str]] = defaultdict(set)
+    for path in (path for folder in PACKAGES for path in (ROOT / folder).rglob("*.py")):
+        for name in imports(path):
+            found[name].add(".".join(module(path)))
+    return found
 
 
 @functools.cache
 def users(path: Path) -> frozenset[str]:
     """Find the full names of the package's modules that import a file."""
-    mine = names(path)
-    return frozenset(".".join(module(each)) for each in sources() if imports(each) & mine)
+    return frozenset().union(*(importers().get(name, ()) for name in names(path)))
 
 
 def distance(test: Path, changed: Path) -> int | None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..run import areas, sun
+from ..run import areas
 from .front import MovingFront
 from .visible_share import VisibleShare
 
@@ -129,7 +129,7 @@ def liking(front: MovingFront, bearing: float) -> float:
     """Rating of a camera's bearing from the fire (degrees), -1..1; best is windward with the sun behind."""
     side = np.array([np.sin(np.radians(bearing)), np.cos(np.radians(bearing))])
     windward = -float(side @ front.wind)
-    azimuth, height = sun.position(front.shot.run, front.shot.frames.middle)
+    azimuth, height = front.sun
     by_day = np.clip(height / 5.0, 0.0, 1.0) * np.cos(np.radians(max(height, 0.0)))
     behind = float(np.cos(np.radians(bearing - azimuth))) * by_day
     weight = np.array([1.0 if np.any(front.wind) else 0.0, 0.6])
@@ -158,7 +158,7 @@ def where(front: MovingFront, bearing: float) -> str:
     parts = [f"from the {side(bearing)}"]
     if float(vector @ front.wind) < -0.5:
         parts.append("windward")
-    azimuth, height = sun.position(front.shot.run, front.shot.frames.middle)
+    azimuth, height = front.sun
     if height > 0.0 and np.cos(np.radians(bearing - azimuth)) > 0.5:
         parts.append("the sun behind it")
     return ", ".join(parts)

@@ -16,7 +16,7 @@ from ..run.readers import folder
 from ..shot.sections import Time
 from ..shot.source import ShotSource
 
-_FRAME_SECONDS = 25.0  # processor s of a frame of 640 x 360 pixels, rgb and thermal (the example's, measured)
+_FRAME_SECONDS = 28.0  # processor s of a frame of 640 x 360 pixels, rgb and thermal (the example's, measured)
 
 
 def find_source(arguments: argparse.Namespace) -> ShotSource:

@@ -80,9 +80,14 @@ class MovingFront:
         return CoarseSmoke(self.shot, self.frames)
 
     @cached_property
+    def sun(self) -> tuple[float, float]:
+        """Azimuth and elevation of the sun in the middle of the window, degrees."""
+        return sun.position(self.shot.run, self.shot.frames.middle)
+
+    @property
     def night(self) -> bool:
         """Return whether the sun is below the horizon in the middle of the window."""
-        return sun.position(self.shot.run, self.shot.frames.middle)[1] < 0.0
+        return self.sun[1] < 0.0
 
     @cached_property
     def heading(self) -> Array:

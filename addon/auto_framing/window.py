@@ -25,8 +25,16 @@ _SUN_STEP = 600.0  # s between solar elevations
 Array = NDArray[np.float64]
 
 
-def choose(run: Run, asked: Time) -> tuple[Time, str]:
-    """Choose the [time] of a film: as `asked`, or else the most active part; also a description."""
+def choose(run: Run, asked: Time, sun_above: float = 0.0, nearly: float = NEARLY) -> tuple[Time, str]:
+    """Choose the [time] of a film: as `asked`, or else the most active part; also a description.
+
+    Parameters
+    ----------
+    sun_above
+        Elevation of the sun (degrees) above which there is daylight.
+    nearly
+        Part of the most fuel that a window by daylight has to reach to be chosen.
+    """
     first, last = float(run.times[0]), float(run.times[-1])
     there = zone.time_zone(run)
     whole = Time(frames=FRAMES, fps=FPS, zone=there)
@@ -45,8 +53,8 @@ def choose(run: Run, asked: Time) -> tuple[Time, str]:
     seconds = length(_size(run, arrival <= last), whole_run)
     seconds = max(seconds, min(_unresolved(run, arrival, row, column), whole_run))
     begins, reached = activity(came, fuel, first, last, seconds)
-    most, day = best(reached), _best_by_day(run, begins + 0.5 * seconds, reached)
-    filmed = day if day is not None and reached[day] >= NEARLY * reached[most] else most
+    most, day = best(reached), _best_by_day(run, begins + 0.5 * seconds, reached, sun_above)
+    filmed = day if day is not None and reached[day] >= nearly * reached[most] else most
     start, end = (times.utc(run, begins[filmed] + more) for more in (0.0, seconds))
     part = f"{100.0 * reached[filmed] / fuel.sum():.2g} % of the fuel that burns in the run"
     light = "" if most == day else _light(run, begins, reached, filmed, most, day)
@@ -96,11 +104,11 @@ def best(reached: Array) -> int:
     return int(np.flatnonzero(reached == reached.max())[-1])
 
 
-def _best_by_day(run: Run, middle: Array, reached: Array) -> int | None:
-    """Return the index of the most active window (n,) with the sun up in its middle (s); None without one."""
+def _best_by_day(run: Run, middle: Array, reached: Array, above: float) -> int | None:
+    """Return the index of the most active window (n,) by daylight in its middle (s); None without one."""
     sampled = np.append(np.arange(middle[0], middle[-1], _SUN_STEP), middle[-1])
     height = [sun.position(run, float(time))[1] for time in sampled]
-    by_day = np.flatnonzero(np.interp(middle, sampled, height) > 0.0)
+    by_day = np.flatnonzero(np.interp(middle, sampled, height) > above)
     if not len(by_day) or not reached[by_day].any():
         return None
     return int(by_day[best(reached[by_day])])

@@ -376,6 +376,10 @@ def still_settings(render: bpy.types.RenderSettings) -> None:
     render.image_settings.file_format = "PNG"
 
 
+_COVERED = range(0x530), range(0x1E00, 0x2C00)
+"""Code points of Latin, Greek and Cyrillic letters, signs and arrows, which Blender's typeface has."""
+
+
 def typeface() -> bpy.types.VectorFont | None:
     """Load Blender's typeface from its file; None if it is not installed.
 
@@ -383,6 +387,14 @@ def typeface() -> bpy.types.VectorFont | None:
     """
     path = typeface_path()
     return bpy.data.fonts.load(path, check_existing=True) if path else None
+
+
+def strip_typeface(text: str) -> bpy.types.VectorFont | None:
+    """Return the typeface of a text strip: Blender's for Latin, Greek and Cyrillic letters, otherwise None.
+
+    A strip with a typeface draws boxes for letters of other scripts, which the built-in typefaces cover.
+    """
+    return typeface() if all(any(ord(each) in part for part in _COVERED) for each in text) else None
 
 
 def typeface_path() -> str:

@@ -145,7 +145,7 @@ def _run(arguments: argparse.Namespace) -> None:
     for note in page.notes(gathered):
         say(note)
     made = page.html(gathered, arguments.limit)
-    output.write_text(arguments.out, made, arguments.overwrite, newline="\n")
+    output.write_text(arguments.out, made, arguments.overwrite)
     say(f"wrote one file of {html_text.size(len(made.encode()))}, which loads no other files")
     result(arguments.out)
     if arguments.pdf:

@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 
 from ..data.history import SQUARE_METRES_PER_ACRE
-from ..run.measure import AREA, METRES, Measure, Units, area, ordered
+from ..run.measure import AREA, METRES, MILE, Measure, Units, area, ordered
 from ..stations.arrival_text import format_distance
 
 __all__ = ["AREA", "FUEL", "MILE", "SEPARATION", "area", "distance", "length", "number", "quantity"]
 
-MILE = 1609.344
-"""International mile, m."""
 _CHAIN, _GALLON, _POUND = 20.1168, 3.785411784, 0.45359237  # m, l, kg (NIST Handbook 44, appendix C)
 _US = {
     "l": ("gal", 1.0 / _GALLON),

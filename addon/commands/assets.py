@@ -39,7 +39,7 @@ def _run(arguments: argparse.Namespace) -> None:
             say("writing a small sample run, which the assets are made for")
             sample.write(Path(folder) / "sample", 13)
             scene = Path(folder) / "scene.toml"
-            scene.write_text(assets.SCENE, encoding="utf-8")
+            scene.write_text(assets.SCENE, encoding="utf-8", newline="\n")
         source = ShotSource(scene=str(scene))
         number = assets.run(source, arguments.out, Reporter(), say, overwrite=arguments.overwrite)
     say(f"{count(number, 'asset')} in {arguments.out}")

@@ -20,6 +20,8 @@ _DETAIL = """\
 DIR/CAMERA/PASS/CAMERA_PASS_000001.png   and .exr, by pass
 DIR/CAMERA/CAMERA_PASS.mp4               films, with the model time in each frame
 DIR/manifest.json                        settings, versions, hashes of inputs and files
+DIR/first.png                            coarse picture with preview smoke, while the smoke
+                                         of the first picture is solved
 
 passes:
 {passes}
@@ -37,7 +39,8 @@ def _detail() -> str:
     """Describe the output, and each pass."""
     from ..shot import passes
 
-    lines = (f"  {name:<13}{text}" for name, text in passes.helps().items())
+    width = max(map(len, passes.helps()))
+    lines = (f"  {name:<{width}} {text}" for name, text in passes.helps().items())
     return _DETAIL.format(passes="\n".join(lines))
 
 
@@ -87,6 +90,7 @@ def _run(arguments: argparse.Namespace) -> None:
         arguments.passes,
         arguments.resume,
         access=_tile_access.read(arguments),
+        coarse_first=True,
     )
     run = amend(arguments, render.run)
     made = run(fitted_scene.find_source(arguments), asked, Reporter(), say)

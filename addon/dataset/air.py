@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..run.sun import Moon
 from ..shot.light import sky
 from .draw import Draw
 
 _KOSCHMIEDER = 3.912  # optical depth at which a contrast of 1 falls to 2 % (WMO-No. 8)
+_PARTS = (np.arange(16) + 0.5) / 16  # of a line of sight, at which its air is measured
 _FOG_SUN, _DUST_SUN = 0.12, 0.45  # share of direct sunlight that passes (by eye)
 _MOON = 15.0, 65.0  # degrees, elevations of the moon (assumed)
 _FOG_SOFT = 40.0  # degrees, angle over which the sun spreads in fog (by eye)
@@ -56,9 +58,21 @@ def haze_amount(drawn: Draw) -> float:
 
     Extinction is 3.912 over the visibility (Koschmieder 1924). It falls with height as in `shot.light.sky`.
     """
-    low = min(drawn.camera.position[2], drawn.target[2])
-    shares = np.exp(-low / sky.HAZE_HEIGHT) + sky.LOW_HAZE * np.exp(-low / sky.LOW_HEIGHT)
-    return float(_KOSCHMIEDER / (1000.0 * drawn.visibility) / (sky.HAZE * shares))
+    low = np.array(min(drawn.camera.position[2], drawn.target[2]))
+    return float(_KOSCHMIEDER / (1000.0 * drawn.visibility) / _extinction(1.0, low))
+
+
+def clearness(haze: float, start: NDArray[np.float64], ends: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compute the share (n,) of light that the air lets pass from points (n, 3) to a point (3,), m."""
+    along = start + _PARTS[:, None, None] * (ends - start)
+    mean: NDArray[np.float64] = _extinction(haze, along[..., 2]).mean(axis=0)
+    return np.exp(-mean * np.linalg.norm(ends - start, axis=-1))
+
+
+def _extinction(haze: float, height: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compute the extinction of air, 1/m, at heights in the scene, m."""
+    low = sky.LOW_HAZE * np.exp(-height / sky.LOW_HEIGHT)
+    return np.asarray(haze * sky.HAZE * (np.exp(-height / sky.HAZE_HEIGHT) + low))
 
 
 def moon(drawn: Draw) -> Moon:

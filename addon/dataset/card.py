@@ -22,7 +22,7 @@ _SIZES = (1000, "n<1K"), (10_000, "1K<n<10K"), (100_000, "10K<n<100K")
 
 def write(folder: Path, about: About, samples: Sequence[Truth], overwrite: bool = False) -> None:
     """Write the card."""
-    output.write_text(folder / NAME, text(folder, about, samples), overwrite, "\n")
+    output.write_text(folder / NAME, text(folder, about, samples), overwrite)
 
 
 def text(folder: Path, about: About, samples: Sequence[Truth]) -> str:

@@ -18,6 +18,17 @@ def group(mask: Mask, gap: int) -> tuple[Labels, int]:
     return np.where(mask, labels, 0).astype(np.int32), count
 
 
+def fill(mask: Mask, gap: int) -> Mask:
+    """Fill gaps of at most `gap` pixels within a mask, and its holes; an odd `gap` is rounded down."""
+    reach = gap // 2
+    closed = mask | ~dilate(~dilate(mask, reach, beyond=False), reach, beyond=False)
+    outside, count = label(~closed)
+    is_hole = np.arange(count + 1) > 0
+    for edge in (outside[0], outside[-1], outside[:, 0], outside[:, -1]):
+        is_hole[edge] = False
+    return closed | is_hole[outside]
+
+
 def local_mean(values: NDArray, reach: int) -> NDArray[np.float64]:
     """Average values (h, w, ...) over squares of 2 `reach` + 1 pixels, within the picture."""
     total, weight = values.astype(np.float64), np.ones(values.shape[:2])

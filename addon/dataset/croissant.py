@@ -65,7 +65,7 @@ def write(
     """
     content = document(folder, about, hashes[table.NAME], licences)
     text = json.dumps(content, indent=1, ensure_ascii=False) + "\n"
-    output.write_text(folder / NAME, text, overwrite, "\n")
+    output.write_text(folder / NAME, text, overwrite)
 
 
 def document(folder: Path, about: About, table_hash: str, licences: Mapping[str, str]) -> dict[str, Any]:

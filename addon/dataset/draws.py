@@ -30,6 +30,7 @@ TRIES = 400
 BEFORE, AFTER = -1, -2
 """Moments of samples before the first fire and after the last one."""
 _LOW_SUN, _BURNED_OUT = "low_sun", "burned_out"
+_CLEAR = 20  # tries of a mobile camera without fire in which its target is not beyond the visibility
 _VISIBILITY = defaultdict(lambda: "visibility", fog="visibility_fog", dust="visibility_dust")
 _CLOUDS = defaultdict(lambda: "cloud_cover", cloud="cloud_cover_cloud")
 _SENSOR = "exposure", "read_noise", "full_well", "blur", "jpeg_quality", "netd", "saturation"
@@ -144,11 +145,14 @@ class Drawer:
         placement.check(scene, pose, is_mobile=stratum.camera != "tower")
         placement.check_trees(scene, pose, lens.half, target)
         distance = float(np.linalg.norm(target - pose.position))
+        visibility, cloud_cover = value(_VISIBILITY[stratum.kind]), value(_CLOUDS[stratum.kind])
+        clear = stratum.camera != "tower" and attempt < _CLEAR  # an aircraft in fog may see nothing
+        if stratum.kind == POSITIVE or clear:
+            placement.check_sight(distance, visibility)
         if stratum.kind == POSITIVE:
             placement.check_fire(scene, pose, time, lens, distance, allow_hidden=value("ridge") >= 0.5)
         camera = _camera(scene, stratum.camera, site, pose, value("field_of_view"))
         sun = _sun(stratum, camera.heading, value)
-        visibility, cloud_cover = value(_VISIBILITY[stratum.kind]), value(_CLOUDS[stratum.kind])
         lamps = round(value("night_lights")) if stratum.kind == "night_lights" else 0
         for name in _SENSOR:
             value(name)

@@ -1,10 +1,11 @@
 """Labels of a sample: plumes and flames with boxes and masks, the front and the horizon. Needs no Blender.
 
 Smoke counts where it hides at least `ALPHAS[0]` of the background and changes the picture by at least
-`CONTRAST`: smoke that nobody can see has no box. Fire counts where the mask pass shows it, or where flames
-give at least `GLOW` of white and `SHARE` of the light of the pixel. Parts with gaps of at most `GAP` of the
-picture's width are one instance: a trunk, a narrow ridge or a thin spot does not divide a plume; wider
-terrain does. Smoke that nobody can see joins the parts of its plume, but has no pixels in the mask.
+`OUTLINE`, if some of its plume changes it by `CONTRAST`: smoke that nobody can see has no box. Fire counts
+where the mask pass shows it, or where flames give at least `GLOW` of white and `SHARE` of the light of the
+pixel. Parts with gaps of at most `GAP` of the picture's width are one instance: a trunk, a narrow ridge or a
+thin spot does not divide a plume; wider terrain does. Smoke that nobody can see joins the parts of its plume,
+but has no pixels in the mask beyond its holes and gaps (`visible_smoke`).
 """
 
 from __future__ import annotations
@@ -26,11 +27,11 @@ from .truth import Annotation, Box, CameraPose, Polyline, Truth
 
 ALPHAS = (0.05, 0.2, 0.5)
 """Opacities of smoke: the first one outlines a plume, each has a box."""
-CONTRAST = 0.05
-"""Least difference from the smoke-free twin, share of full scale of a channel in display values. The mean
-over 5 x 5 pixels counts, so that noise does not. In front of a bright sky it is 15 % of luminance, three
-times the 5 % at which WMO-No. 8 sets the meteorological optical range; at that threshold nobody would draw a
-box (assumed).
+CONTRAST, OUTLINE = 0.08, 0.03
+"""Least differences from the smoke-free twin, shares of full scale of a channel in display values: of some
+pixels of a plume, and of its outline. The mean over 5 x 5 pixels counts, so that noise does not. In front of
+a bright sky they are 23 % and 9 % of luminance; WMO-No. 8 sets the meteorological optical range at 5 %, at
+which nobody would draw a box (assumed). Smoke between the two is doubtful: it has no box, and is ignored.
 """
 HORIZON = 0.02
 """Least difference of land and sky at the horizon, as `CONTRAST`. In front of a bright sky it is 6 % of
@@ -54,6 +55,10 @@ FIRE_BAND = "visible"
 
 HIDES = 0.5
 """Opacity of smoke that hides the front, as of the class smoke in `masks`."""
+
+CLEARNESS = 0.1
+"""Least share of light that air lets pass from a front. Burned and other ground, with a contrast of 50 %
+(assumed), then differ by the 5 % of the meteorological optical range."""
 
 _REACH = 2  # pixels on each side of the mean contrast
 
@@ -95,9 +100,9 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
     """
     contrast = smoke_contrast(rendered)
     smoke = rendered.alpha >= ALPHAS[0]
-    seen = smoke & (contrast >= CONTRAST)
-    visible, amodal = fire_masks(rendered)
     width = rendered.camera.width
+    seen, doubtful = visible_smoke(smoke, contrast, width)
+    visible, amodal = fire_masks(rendered)
     pieces = _pieces(seen, smoke, width)
     plumes = seen & ~pieces
     found = [
@@ -106,7 +111,8 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
     ]
     large = [each for each in found if each.pixels >= MIN_PIXELS][: truth.MOST]
     small = [each for each in found if not any(each is other for other in large)]
-    small += _instances(truth.SMOKE, pieces, pieces, pieces, width)
+    for each in (pieces, doubtful):
+        small += _instances(truth.SMOKE, each, each, each, width)
     annotations = [
         _annotation(number, each, rendered, place, contrast) for number, each in enumerate(large + small, 1)
     ]
@@ -119,7 +125,11 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
         seconds_since_ignition=since,
         annotations=tuple(annotations[: len(large)]),
         below_size=tuple(annotations[len(large) :]),
-        front=_polylines(survey.front_in_picture(place, rendered.camera, rendered.alpha >= HIDES)),
+        front=_polylines(
+            survey.front_in_picture(
+                place, rendered.camera, rendered.alpha >= HIDES, rendered.facts.get("haze", 0.0), CLEARNESS
+            )
+        ),
         front_geojson=place.geojson(),
         horizon=_polylines(survey.skyline(rendered.depth, rendered.rgb, HORIZON)),
         labelling=thresholds() | {"smoke_without_contrast_pixels": int((smoke & ~seen).sum())},
@@ -130,13 +140,27 @@ def label(rendered: Rendered, place: Place, index: int) -> tuple[Truth, Masks]:
 def thresholds() -> dict[str, Any]:
     """Return the thresholds and bands of the labels for the metadata."""
     return {
-        "smoke": {"band": SMOKE_BAND, "alpha": list(ALPHAS), "contrast": CONTRAST},
+        "smoke": {"band": SMOKE_BAND, "alpha": list(ALPHAS), "contrast": CONTRAST, "outline": OUTLINE},
         "fire": {"band": FIRE_BAND, "glow_of_white": GLOW, "share_of_light": SHARE, "class": "masks: fire"},
-        "front": {"hiding_alpha": HIDES},
+        "front": {"hiding_alpha": HIDES, "clearness_of_air": CLEARNESS},
         "gap_of_width": GAP,
         "pieces": {"share": PIECE, "gap_of_width": AROUND},
         "min_pixels": MIN_PIXELS,
     }
+
+
+def visible_smoke(smoke: Mask, contrast: Array, width: int) -> tuple[Mask, Mask]:
+    """Find the pixels (h, w) of smoke that are visible, and those that are doubtful.
+
+    Visible smoke reaches down to the outline's contrast, so that a plume does not fall into the splinters
+    that a threshold cuts out of it. Holes of a plume and gaps of at most `AROUND`, where its light equals
+    the background's, belong to it.
+    """
+    outlined = smoke & (contrast >= OUTLINE)
+    plumes, count = components.group(outlined, round(GAP * width))
+    sure = np.bincount(plumes[outlined & (contrast >= CONTRAST)], minlength=count + 1) >= MIN_PIXELS
+    seen = outlined & sure[plumes]
+    return smoke & components.fill(seen, round(AROUND * width)), outlined & ~seen
 
 
 def smoke_contrast(rendered: Rendered) -> Array:

@@ -114,6 +114,18 @@ def check_trees(scene: RunScene, pose: Pose, half: tuple[float, float], target: 
         raise Rejected("behind trees")
 
 
+def check_sight(distance: float, visibility: float) -> None:
+    """Check that a target is not farther away, m, than the meteorological visibility, km.
+
+    Raises
+    ------
+    Rejected
+        It is.
+    """
+    if distance > 1000.0 * visibility:
+        raise Rejected("beyond the visibility")
+
+
 def check_fire(
     scene: RunScene, pose: Pose, time: float, lens: Lens, distance: float, allow_hidden: bool
 ) -> None:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..progress import MessageCallback, no_message
+from ..render.frame_cost import FrameCost
 from ..run import sun, times
 from ..shot.shot import Shot
 from . import air, places
@@ -25,7 +26,7 @@ from .rendered import Rendered, SampleCamera
 if TYPE_CHECKING:
     from ..blender.owned import Stage
     from ..smoke.sources import Source
-    from .sample_renderer import Cost, SampleRenderer
+    from .sample_renderer import SampleRenderer
 
 _SKY_MAP = 64
 """Columns of Cycles' importance map of the sky; Blender's default takes 2.8 processor seconds a sample."""
@@ -60,9 +61,9 @@ class _VisitScene:
         from ..scene.forest import stand
         from ..scene.forest.frame_culling import FrameCulling
         from ..smoke import sources
-        from .sample_renderer import Cost, SampleRenderer
+        from .sample_renderer import SampleRenderer
 
-        self.visit, self.tell, self.cost = visit, tell, Cost()
+        self.visit, self.tell, self.cost = visit, tell, FrameCost()
         with self.cost.part("smoke solved"):
             self.shot = places.shot_of_visit(plan, visit)
             self.source = sources.select(self.shot) if visit.has_fire else None
@@ -83,9 +84,8 @@ class _VisitScene:
 
     def _render(self, drawn: Draw, folder: Path) -> Rendered:
         from .. import memory
-        from .sample_renderer import Cost
 
-        cost = Cost()
+        cost = FrameCost()
         with cost.part("scene moved"):
             shot = places.shot_of_sample(self.shot, drawn)
             self._move(shot, drawn)
@@ -136,7 +136,7 @@ class _VisitScene:
             source.flow = self.source.flow
         return source
 
-    def _facts(self, cost: Cost) -> dict[str, Any]:
+    def _facts(self, cost: FrameCost) -> dict[str, Any]:
         """Return the processor seconds of a sample's parts, and its share of the visit's."""
         share = {name: value / len(self.visit.draws) for name, value in self.cost.seconds.items()}
         parts = share | cost.seconds

@@ -39,7 +39,7 @@ _LABELS = {
 
 def write(folder: Path, about: About, samples: Sequence[Truth], overwrite: bool = False) -> None:
     """Write the report."""
-    output.write_text(folder / NAME, page(folder, about, samples), overwrite, "\n")
+    output.write_text(folder / NAME, page(folder, about, samples), overwrite)
 
 
 def page(folder: Path, about: About, samples: Sequence[Truth]) -> str:

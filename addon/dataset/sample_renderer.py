@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -27,22 +26,6 @@ Array = NDArray[np.float32]
 _FRAME = 1
 
 
-class Cost:
-    """Processor seconds of the parts of one sample."""
-
-    def __init__(self) -> None:
-        self.seconds: dict[str, float] = {}
-
-    @contextmanager
-    def part(self, name: str) -> Iterator[None]:
-        """Add the processor time of the block to a part."""
-        began = time.process_time()
-        try:
-            yield
-        finally:
-            self.seconds[name] = self.seconds.get(name, 0.0) + time.process_time() - began
-
-
 class SampleRenderer(IntegratedRenderer):
     """Renderer of the samples of a built scene."""
 
@@ -50,7 +33,12 @@ class SampleRenderer(IntegratedRenderer):
         super().__init__(shot, stage, frame_cost.FrameCost())
 
     def maps(
-        self, shot: Shot, smoke: Sequence[volume.Bricks], folder: Path, cost: Cost, error: float
+        self,
+        shot: Shot,
+        smoke: Sequence[volume.Bricks],
+        folder: Path,
+        cost: frame_cost.FrameCost,
+        error: float,
     ) -> dict[str, Any]:
         """Render the maps of a sample (see `rendered.Rendered`) for the current state of the scene.
 
@@ -59,25 +47,24 @@ class SampleRenderer(IntegratedRenderer):
         error
             Error of the exposure, stops.
         """
-        self.shot = shot
+        self.shot, self.cost = shot, cost
         (view,) = shot.paths
         name = view.camera.name
-        with cost.part("flames"):
-            flame_field.set_reach(self.stage, flame_map.reach(shot, view))
-            flames, outline = self._flames(_FRAME)
-            distance = self._measure_flames(outline)
-        with cost.part("shadow of smoke"):
-            if self.shadow:
+        flame_field.set_reach(self.stage, flame_map.reach(shot, view))
+        flames, outline = self._flames(_FRAME)
+        cells = self._measure_cells(outline, [])  # the twin shows surfaces behind smoke
+        if self.shadow:
+            with cost.part(frame_cost.SHADOW):
                 self.shadow.cast(self.stage, smoke)
         with self._kept_in_cycles():
-            with cost.part("surfaces"):
+            with cost.part(frame_cost.SURFACES):
                 found = self._surfaces("rgb", folder)
             with cost.part("classes"):
                 centres = self._surfaces("masks", folder, centres=True)
         burning = flames, outline
-        eye = SampleEye(shot, self.stage, found, 0, smoke, *burning, flame_distance=distance)
+        eye = SampleEye(shot, self.stage, found, 0, smoke, *burning, flame_cells=cells)
         centre = CentreEye(shot, self.stage, centres, 0, smoke, *burning)
-        with cost.part("smoke march"):
+        with cost.part(frame_cost.MARCH):
             light = eye.light()
             away = eye.smoke_range(light.clear)
         with cost.part("labels"):
@@ -86,10 +73,9 @@ class SampleRenderer(IntegratedRenderer):
             kelvin = eye.kelvin()
         film = float(self.scene.view_settings.exposure)
         risen = metering.rise(light.picture, film)
-        with cost.part("display"):
-            factor = np.float32(2.0 ** (risen + error))
-            rgb = self._displayed(factor * light.picture, name, folder)
-            twin = rgb if light.twin is light.picture else self._displayed(factor * light.twin, name, folder)
+        factor = np.float32(2.0 ** (risen + error))
+        rgb = self._displayed(factor * light.picture, name, folder)
+        twin = rgb if light.twin is light.picture else self._displayed(factor * light.twin, name, folder)
         return {
             "rgb": rgb,
             "twin": twin,

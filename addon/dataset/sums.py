@@ -45,7 +45,7 @@ def write(folder: Path, overwrite: bool = False) -> dict[str, str]:
     """Write the hash of each file, and return them by path."""
     found = {path: digest(folder / path) for path in paths(folder)}
     text = "".join(f"{value}  {path}\n" for path, value in found.items())
-    output.write_text(folder / NAME, text, overwrite, "\n")
+    output.write_text(folder / NAME, text, overwrite)
     return found
 
 

@@ -16,6 +16,7 @@ from ..shot import georeference
 from ..shot.georeference import Georeference
 from ..shot.shot import Shot
 from ..shot.terrain.terrain import UNKNOWN, Terrain, box
+from . import air
 from .rendered import SampleCamera
 
 Array = NDArray[np.float64]
@@ -169,20 +170,27 @@ def ground_area(
     return float(np.sum(depth[seen] ** 2 / facing[seen]) / (camera.fx * camera.fy))
 
 
-def front_in_picture(place: Place, camera: SampleCamera, smoky: Mask) -> list[Array]:
-    """Project the front: visible polylines (n, 2), pixels. Terrain and smoke hide it, trees do not.
+def front_in_picture(
+    place: Place, camera: SampleCamera, smoky: Mask, haze: float = 0.0, clearness: float = 0.0
+) -> list[Array]:
+    """Project the front: visible polylines (n, 2), pixels. Terrain, smoke and air hide it, trees do not.
 
     Parameters
     ----------
     smoky
         Pixels (h, w) whose smoke hides the ground.
+    haze
+        The sample's `light.haze`.
+    clearness
+        Least share of light that air lets pass from a visible front.
     """
-    polylines = []
+    polylines, eye = [], camera.to_world[:3, 3]
     for line in place.front:
         for part in _sampled(place, camera, line):
             u, v, _ = project(camera, part)
             inside = (u >= 0.0) & (u <= camera.width) & (v >= 0.0) & (v <= camera.height)
             inside[inside] = ~smoky[_pixel(v[inside], camera.height), _pixel(u[inside], camera.width)]
+            inside[inside] = air.clearness(haze, eye, part[inside]) >= clearness
             inside[inside] = _is_in_sight(place, camera, part[inside])
             polylines += [_simplified(np.column_stack([u, v])[run]) for run in _true_runs(inside)]
     return polylines

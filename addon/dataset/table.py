@@ -38,7 +38,7 @@ def write(folder: Path, samples: Sequence[Truth], overwrite: bool = False) -> No
     rows = csv.DictWriter(text, list(COLUMNS), lineterminator="\n")
     rows.writeheader()
     rows.writerows(_row(truth) for truth in samples)
-    output.write_text(folder / NAME, text.getvalue(), overwrite, "\n")
+    output.write_text(folder / NAME, text.getvalue(), overwrite)
 
 
 def kind(truth: Truth) -> str:

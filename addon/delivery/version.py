@@ -108,7 +108,7 @@ def _list(part: Path, number: int, delivered: dict[str, File]) -> None:
     content = {"format": _FORMAT, "version": number, "files": listed}
     files.write_text(part / MANIFEST, json.dumps(content, indent=1) + "\n")
     sums = "".join(f"{each.sha256}  {name}\n" for name, each in sorted(delivered.items()))
-    files.write_text(part / SUMS, sums, newline="\n")
+    files.write_text(part / SUMS, sums)
 
 
 def _check_latest(out: Path, overwrite: bool) -> None:

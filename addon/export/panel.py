@@ -9,7 +9,7 @@ import bpy
 
 from ..errors import Error, InputError, input_error
 from ..progress import count
-from ..ui import job, render, run, scene_file, working
+from ..ui import render, run, scene_file, working
 from ..ui.job import InThread, Steps
 from ..ui.menu_entries import MenuEntry
 from ..ui.sidebar import SidebarPanel
@@ -90,10 +90,7 @@ class FIRETWIN_PT_export(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, panel = self.layout, context.scene.firetwin
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        column = layout.column()
-        column.enabled = job.Job.current is None
+        column = working.settings_column(layout)
         column.prop(panel, "export_to")
         column.prop(panel, "export_frames")
         if formats.known()[panel.export_to].has_smoke:

@@ -120,10 +120,6 @@ class Plants:
         """Return which crowns (n,) are in flames at a model time (s): from the fire to the bare plant."""
         return (self.torched > 0.5) & (self.arrival <= time) & (time < self.burned_from)
 
-    def prototype_at(self, time: float) -> Numbers:
-        """Return the prototype of each plant (n,) at a model time (s)."""
-        return np.where(self.burned_from <= time, self.burned_prototype, self.prototype)
-
 
 @dataclass(frozen=True)
 class TerrainMesh:

@@ -80,7 +80,7 @@ def write(content: SceneContent, out: Path, shot: Shot) -> Path:
         albedo=ALBEDO,
         anisotropy=ANISOTROPY,
     )
-    (folder / "README.txt").write_text(text, encoding="utf-8")
+    (folder / "README.txt").write_text(text, encoding="utf-8", newline="\n")
     return path
 
 

@@ -296,10 +296,7 @@ class FIRETWIN_PT_farm(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, panel = self.layout, context.scene.firetwin
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        column = layout.column()
-        column.enabled = job.Job.current is None
+        column = working.settings_column(layout)
         column.prop(panel, "farm_engine")
         column.prop(panel, "farm_output")
         column.prop(panel, "farm_chunk")

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..html_text import quote
-from ..run import area_chart, areas, fronts
+from ..run import area_chart, areas, fronts, measure
 from ..run.measure import Measure, Units, area
 from .ensemble import places
 from .ensemble.ensemble import Ensemble
@@ -125,11 +125,10 @@ class _Place:
 
     def scale(self) -> Iterator[str]:
         """Draw a scale bar of a round length."""
-        steps = 20_000, 10_000, 5_000, 2_000, 1_000, 500, 200, 100
-        length = next((step for step in steps if step * self.scale_to < 250), 100)
+        length = measure.round_length(250.0 / self.scale_to)
         end, y = 10 + length * self.scale_to, self.height - 12
         yield f'<line class="tick" x1="10" x2="{end:.1f}" y1="{y:.1f}" y2="{y:.1f}"/>'
-        yield f'<text x="10" y="{y - 6:.1f}">{length / 1000:g} km ({length / 1609.344:.1f} mi)</text>'
+        yield f'<text x="10" y="{y - 6:.1f}">{length / 1000:g} km ({length / measure.MILE:.1f} mi)</text>'
 
 
 def _thinned(points: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:

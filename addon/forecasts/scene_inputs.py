@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from datetime import datetime
 from pathlib import Path
 
 from firetwin_core.run import Run
@@ -14,7 +15,6 @@ from ..shot.schema import scene_text
 from ..shot.settings import Settings
 from . import forecast
 from .ensemble import describe
-from .ensemble.ensemble import Ensemble
 
 ASPECT = "forecast"
 
@@ -33,6 +33,15 @@ def sources(settings: Settings) -> list[dict[str, str]]:
 def sentences(settings: Settings) -> list[str]:
     """Describe the ensemble for the paragraph on methods."""
     return [describe.sentence(forecast.of(settings).manifest)] if settings.forecast.ensemble else []
+
+
+def window(settings: Settings) -> tuple[datetime, datetime] | None:
+    """Return the issue time and the end of the shown member, UTC; None without an ensemble."""
+    if settings.forecast.ensemble is None:
+        return None
+    ensemble = forecast.of(settings)
+    member = ensemble.members[forecast.set_member(settings, ensemble)]
+    return ensemble.issued, ensemble.valid(min(member.end, ensemble.horizon))
 
 
 def check(settings: Settings, run: Run) -> None:
@@ -68,7 +77,7 @@ def check(settings: Settings, run: Run) -> None:
             "forecast.member"
         )
         raise forecast.error(settings, "member", reason)
-    _check_window(settings, run, ensemble, member)
+    _check_window(settings, run, ensemble.members[member].name)
 
 
 def check_others(settings: Settings, runs: Mapping[str, Run]) -> None:
@@ -91,7 +100,7 @@ def check_others(settings: Settings, runs: Mapping[str, Run]) -> None:
             raise scene_text.error_at(settings.path, ("runs", i, "path"), reason)
 
 
-def _check_window(settings: Settings, run: Run, ensemble: Ensemble, member: int) -> None:
+def _check_window(settings: Settings, run: Run, member: str) -> None:
     """Check that the shot lies between the issue time and the member's end.
 
     Raises
@@ -101,11 +110,12 @@ def _check_window(settings: Settings, run: Run, ensemble: Ensemble, member: int)
     """
     shown = frames.resolve(settings.time, run)
     first, last = times.utc(run, shown.first), times.utc(run, shown.last)
-    end = ensemble.valid(min(ensemble.members[member].end, ensemble.horizon))
-    if ensemble.issued <= first and last <= end:
+    allowed = window(settings)
+    assert allowed
+    if allowed[0] <= first and last <= allowed[1]:
         return
     reason = (
-        f"member {ensemble.members[member].name} has {times.iso(ensemble.issued)} to {times.iso(end)}, and "
+        f"member {member} has {times.iso(allowed[0])} to {times.iso(allowed[1])}, and "
         f"the shot shows {times.iso(first)} to {times.iso(last)}; change time.start and time.end"
     )
     raise forecast.error(settings, "ensemble", reason)

@@ -1,8 +1,8 @@
 """Vector drawings of the symbols of NWCG's map standard.
 
 Shapes and colours follow the descriptions in NWCG PMS 936, "Symbology" (public domain): for example, "red X
-in red circle" for the fire origin. Symbols in `BY_CUSTOM` have the letters that are usual in the Incident
-Command System.
+in red circle" for the fire origin. Other points, such as bases and stations, have the letters that are usual
+in the Incident Command System.
 """
 
 from __future__ import annotations
@@ -84,11 +84,6 @@ POINTS = {
     "Value at risk": f'<path d="M0,-1L1,0L0,1L-1,0Z" fill="#fff" stroke="{_PURPLE}" stroke-width="0.24"/>',
 }
 """Drawings of points, in a box from -1 to 1."""
-BY_CUSTOM = (
-    "Incident Command Post", "Incident Base", "Staging Area", "Water Source", "Helibase", "Helispot",
-    "Safety Zone", "Lookout", "Spot Fire", "Station", "Named place", "Value at risk",
-)  # fmt: skip
-"""Points without a description of their shape in the standard's table, as far as it is known here."""
 
 
 @dataclass(frozen=True)

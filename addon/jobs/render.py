@@ -17,7 +17,7 @@ from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from ..shot.tiles import tile_terms
-from . import solve, worker
+from . import first_picture, solve, worker
 from .tiles import imagery, selection
 from .tiles.access import TileAccess
 
@@ -48,6 +48,8 @@ class RenderRequest:
         Make films of the pictures.
     access
         Access to tiles.
+    coarse_first
+        Write a coarse first picture while the flow of smoke is solved, unless pictures are resumed.
     """
 
     out: Path
@@ -57,6 +59,7 @@ class RenderRequest:
     resume: bool = False
     films: bool = True
     access: TileAccess | None = None
+    coarse_first: bool = False
 
     def selection(self) -> Selection:
         """Return the requested frames, cameras and passes."""
@@ -82,6 +85,7 @@ def run(
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
     shot: Shot | None = None,
+    process: worker.Worker | None = None,
 ) -> RenderResult:
     """Render the requested pictures that are not finished, then the films.
 
@@ -89,6 +93,8 @@ def run(
     ----------
     shot
         Shot of `choice`, if already resolved.
+    process
+        Process to render in; None: a new one.
 
     Raises
     ------
@@ -115,11 +121,12 @@ def run(
     if undone:
         views = list(dict.fromkeys(picture.camera for picture in undone))
         tell(f"rendering {count(len(undone), 'picture')} of {' and '.join(views)}")
-        tell(shot.describe_film())
+        if asked.films:
+            tell(shot.describe_film())
         imagery.prepare(choice, views, progress, tell, stop, asked.access)
     job = partial(in_blender, choice, replace(asked, out=out.absolute()), set(made_with), begun)
     with Store(out, create=True) as store:
-        result = make(job, undone, store, shot, progress, tell, stop)
+        result = make(job, undone, store, shot, progress, tell, stop, process)
         dataset.write(store)
     if others := len(undone) - result.pictures:
         tell(f"another render made {others} of these {count(len(undone), 'picture')}")
@@ -207,6 +214,7 @@ def make(
     progress: Progress,
     tell: MessageCallback,
     stop: worker.Stop | None,
+    process: worker.Worker | None = None,
 ) -> Result:
     """Run a render job in a worker process; then release its leases and write the manifest.
 
@@ -222,12 +230,17 @@ def make(
     eevee = shot.settings.render.engine == "eevee"
     follow = picture_progress(store.out, progress, tell)
     try:
-        result = worker.run(work, follow, eevee=eevee, stop=stop, tell=tell)
+        if process is not None:
+            result = process.run(work, follow, stop, tell)
+        else:
+            result = worker.run(work, follow, eevee=eevee, stop=stop, tell=tell)
     except BaseException:
         with contextlib.suppress(Error):  # the first error is the one to report
             leases.leave(store.data, owner)
             store.export()
         raise
+    finally:
+        first_picture.remove(store.out)
     leases.leave(store.data, owner)
     store.export()
     return result
@@ -239,9 +252,11 @@ def picture_progress(out: Path, progress: Progress, tell: MessageCallback) -> Pr
 
     def follow(done: int, total: int, what: str = "", note: str = "") -> None:
         nonlocal told
-        if note and done < total and not told:
+        if note and not told:
             told = True
-            tell(f"first picture: {out / note}; rendering continues")
+            first_picture.remove(out)
+            if done < total:
+                tell(f"first picture: {out / note}; rendering continues")
         progress(done, total, what, f"last: {out / note}" if note else "")
 
     return follow
@@ -291,7 +306,8 @@ def in_blender(
                     wanted = list(group)
                     own = share(progress, done, frames, "rendering")
                     view = for_view(shot, camera)
-                    peak = _camera(choice, view, session, wanted, gpus, own, tell)
+                    coarse = asked.coarse_first and not (asked.resume and begun) and not session.finished
+                    peak = _camera(choice, view, session, wanted, gpus, own, tell, coarse)
                     expected = max(expected, peak)
                     done += count_frames(wanted)
         if todo and shot.settings.smoke.enabled:
@@ -316,10 +332,12 @@ def _camera(
     gpus: Gpus | None,
     progress: Progress,
     tell: MessageCallback,
+    coarse_first: bool = False,
 ) -> int:
     """Render the pictures of a shot's only camera; its smoke is prefetched one frame ahead.
 
-    Cycles renders with `gpus`, or on the processor (None).
+    Cycles renders with `gpus`, or on the processor (None). With `coarse_first`, a coarse picture is written
+    if a long solution of the smoke precedes the first picture.
 
     Returns the estimated peak memory, bytes.
     """
@@ -332,6 +350,7 @@ def _camera(
 
     for text in shot.warnings():
         tell(text)
+    (camera,) = shot.settings.cameras
     frames, done, most = count_frames(wanted), 0, 0
     drawn, hazy = plan.rendered(shot, wanted), smoke_frames(shot, wanted)
     tiled = [tile_cut.location(shot)] if shot.settings.tiles.sources else []
@@ -350,9 +369,23 @@ def _camera(
                 tell(expected.describe(load))
             own = share(progress, done, frames, "rendering")
             prepared = _with_culling(shot, stage, ready) if drawn else ready
+            if coarse_first and elsewhere and done == 0 and (camera.name, "rgb") in drawn:
+                _write_coarse(shot, stage, group[0].frame, session.store.out, tell)
             pictures.render(shot, stage, session, group, own, prepared, tell)
             done += count_frames(group)
     return most
+
+
+def _write_coarse(shot: Shot, stage: Stage, frame: int, out: Path, tell: MessageCallback) -> None:
+    """Write a coarse first picture if a long solution of smoke precedes the first one."""
+    from ..scene.forest.frame_culling import FrameCulling
+
+    if not first_picture.is_worthwhile(shot, frame):
+        return
+    FrameCulling(shot, stage).apply(frame)
+    with contextlib.suppress(Error):  # which the film does not meet, or reports itself
+        if path := first_picture.write(shot, stage, frame, out):
+            tell(f"coarse first picture, until smoke is solved: {path}")
 
 
 def _with_culling(shot: Shot, stage: Stage, ready: Callable[..., Any]) -> Callable[..., Any]:

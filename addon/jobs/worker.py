@@ -1,22 +1,23 @@
-"""Worker process: calls a function in a child process, isolated from Blender's output and crashes.
+"""Worker process: calls functions in a child process, isolated from Blender's output and crashes.
 
-The parent writes the call to the child's stdin as a pickle and keeps that pipe open. The child answers on its
-stdout with pickles: progress and messages, then a result or an error. Blender's own output goes to a log
+The parent writes each call to the child's stdin as a pickle and keeps that pipe open. The child answers on
+its stdout with pickles: progress and messages, then a result or an error. Blender's own output goes to a log
 file. The child ends when the parent's end of the pipe closes, even if the parent was killed.
 """
 
 from __future__ import annotations
 
 import contextlib
-import functools
 import os
 import pickle
+import queue
 import signal
 import subprocess
 import sys
 import tempfile
 import threading
 import traceback
+from collections.abc import Callable
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, Protocol, TypeVar
 
@@ -33,6 +34,7 @@ Answer = tuple[str, Any]
 
 _START = b"firetwin: answers follow\n"  # after the banner of Blender's own executable
 _NONE: Answer = ("", None)
+_LEAVING = 3.0  # s, in which an idle child may exit
 
 
 class Work(Protocol[Result]):
@@ -54,27 +56,27 @@ class EndedError(Exception):
 
 
 class Stop:
-    """Cancellation token: ends a `run` from another thread."""
+    """Cancellation token: ends each `run` with it from another thread."""
 
     def __init__(self) -> None:
         self.asked = False
-        self._child: subprocess.Popen[bytes] | None = None
+        self._children: list[subprocess.Popen[bytes]] = []
         self._lock = threading.Lock()
 
     def now(self) -> None:
-        """Cancel: end the child; a `run` that has not begun ends as soon as it begins."""
+        """Cancel: end the children; a `run` that has not begun ends as soon as it begins."""
         with self._lock:
             self.asked = True
-            if self._child is not None and self._child.poll() is None:
-                self._child.terminate()
-                sure = threading.Timer(3.0, self._child.kill)
+            for child in (each for each in self._children if each.poll() is None):
+                child.terminate()
+                sure = threading.Timer(3.0, child.kill)
                 sure.daemon = True
                 sure.start()
 
     def watch(self, child: subprocess.Popen[bytes]) -> None:
-        """Register the child to end."""
+        """Register a child to end."""
         with self._lock:
-            self._child = child
+            self._children = [*(each for each in self._children if each.poll() is None), child]
         if self.asked:
             self.now()
 
@@ -89,14 +91,20 @@ def run(
     patience: float = 0.0,
     size: int = 0,
 ) -> Result:
-    """Call ``work(progress=..., tell=...)`` in a child process, and return its result.
+    """Call ``work(progress=..., tell=...)`` in a new child process (see `Worker`)."""
+    with Worker(eevee, blender, patience, size) as worker:
+        return worker.run(work, progress, stop, tell)
+
+
+class Worker:
+    """A child process that does one work after another, as a context; started by the first work.
+
+    After an error, or if it ended meanwhile, the next work gets a new process.
 
     Parameters
     ----------
     eevee
         The work renders with EEVEE, which needs OpenGL; without a display it uses an off-screen one.
-    stop
-        Cancellation token for use by another thread.
     blender
         The work needs Blender; work that does not need it also runs without a Blender.
     patience
@@ -104,62 +112,120 @@ def run(
         `run.models.heartbeat`); 0: no timeout.
     size
         Limit on the memory that the work takes, bytes; 0: no limit.
-
-    Raises
-    ------
-    InputError, Error
-        An error that the function raised, of the same kind, or an Error that describes how the process ended.
-    StoppedError
-        `stop` was used.
-    EndedError
-        The process of work without Blender, or with `size`, ended otherwise.
     """
-    from ..errors import Error, InputError, writing
 
-    with writing("the temporary folder"):
-        log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
-    forget = functools.partial(_remove, Path(log.name))
-    package = __package__ or "firetwin"
-    code = f"import importlib; importlib.import_module({package + '.worker'!r}).serve({blender}, {size})"
-    with log:
-        child = subprocess.Popen(
-            _command(code),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=log,
-            env=_environment(eevee),
-        )
-    try:
-        _end_on_sigterm()
-        if stop is not None:
-            stop.watch(child)
-        with _Watchdog(child, patience) as watch:
-            kind, value = _converse(child, work, progress, tell, watch)
-    finally:
-        _end(child)
-    if kind == "result":
-        forget()
-        return value
-    if stop is not None and stop.asked:
-        forget()
-        raise StoppedError
-    quiet = not blender or size > 0
-    log_at = "" if quiet else f" (the log of Blender is {log.name})"
-    if quiet or isinstance(value, InputError):
-        forget()
-    if kind == "error":
-        raise value if isinstance(value, InputError) else type(value)(" ".join(str(value).split()) + log_at)
-    if quiet:
-        if watch.over:
-            raise EndedError(f"made no progress for {duration(patience)} and was ended")
-        raise EndedError(_stopped(child.returncode))
-    raise Error(f"{_ending(child.returncode, eevee)}{log_at}")
+    def __init__(
+        self, eevee: bool = False, blender: bool = True, patience: float = 0.0, size: int = 0
+    ) -> None:
+        self._eevee, self._blender, self._patience, self._size = eevee, blender, patience, size
+        self._child: subprocess.Popen[bytes] | None = None
+        self._log = Path()
+
+    def __enter__(self) -> Worker:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._child is not None:
+            self._close()
+
+    def run(
+        self,
+        work: Work[Result],
+        progress: Progress = silent,
+        stop: Stop | None = None,
+        tell: MessageCallback = no_message,
+    ) -> Result:
+        """Call ``work(progress=..., tell=...)`` in the child process, and return its result.
+
+        Parameters
+        ----------
+        stop
+            Cancellation token for use by another thread.
+
+        Raises
+        ------
+        InputError, Error
+            An error that the function raised, of the same kind, or an Error that describes how the process
+            ended.
+        StoppedError
+            `stop` was used.
+        EndedError
+            The process of work without Blender, or with a limit of memory, ended otherwise.
+        """
+        child = self._start()
+        kind, value = _NONE
+        try:
+            end_on_sigterm()
+            if stop is not None:
+                stop.watch(child)
+            with _Watchdog(child, self._patience) as watch:
+                kind, value = _converse(child, work, progress, tell, watch)
+        finally:
+            if kind != "result":
+                self._child = None
+                _end(child, 0.0 if kind == "" else _LEAVING)
+        if kind == "result":
+            return value
+        raise self._error(child, kind, value, stop, watch)
+
+    def _start(self) -> subprocess.Popen[bytes]:
+        """Start the child, unless one waits for work."""
+        from ..errors import writing
+
+        if self._child is not None:
+            if self._child.poll() is None:
+                return self._child
+            self._close()
+        with writing("the temporary folder"):
+            log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
+        name, limits = f"{__package__ or 'firetwin'}.worker", f"{self._blender}, {self._size}"
+        with log:
+            self._child = subprocess.Popen(
+                _command(f"import importlib; importlib.import_module({name!r}).serve({limits})"),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=log,
+                env=_environment(self._eevee),
+            )
+        self._log = Path(log.name)
+        return self._child
+
+    def _close(self) -> None:
+        """End the child, which has no work, and remove its log."""
+        assert self._child is not None
+        _end(self._child, _LEAVING)
+        self._child = None
+        _remove(self._log)
+
+    def _error(
+        self, child: subprocess.Popen[bytes], kind: str, value: Any, stop: Stop | None, watch: _Watchdog
+    ) -> Exception:
+        """Return the error of a work that has no result; the log stays if the error names it."""
+        from ..errors import Error, InputError
+
+        is_quiet = not self._blender or self._size > 0
+        stopped = stop is not None and stop.asked
+        if stopped or is_quiet or isinstance(value, InputError):
+            _remove(self._log)
+        log_at = "" if is_quiet else f" (the log of Blender is {self._log})"
+        if stopped:
+            return StoppedError()
+        if kind == "error":
+            return (
+                value if isinstance(value, InputError) else type(value)(" ".join(str(value).split()) + log_at)
+            )
+        if is_quiet and watch.over:
+            return EndedError(f"made no progress for {duration(self._patience)} and was ended")
+        if is_quiet:
+            return EndedError(_stopped(child.returncode))
+        return Error(f"{_ending(child.returncode, self._eevee)}{log_at}")
 
 
-def _end_on_sigterm() -> None:
-    """Turn SIGTERM into an exception as Ctrl-C does, so that unfinished files are removed."""
+def end_on_sigterm() -> None:
+    """Turn SIGTERM and Ctrl-Break into an exception as Ctrl-C does, so that unfinished files are removed."""
     if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
+        for number in filter(None, (signal.SIGTERM, getattr(signal, "SIGBREAK", None))):
+            signal.signal(number, lambda received, _: sys.exit(128 + received))
 
 
 class _Watchdog:
@@ -214,7 +280,7 @@ def _converse(
     """Send the work, pass on progress and messages, and return the last answer; `_NONE` without one."""
     assert child.stdin is not None
     assert child.stdout is not None
-    call = pickle.dumps(work)
+    call = pickle.dumps(pickle.dumps(work))
     try:
         child.stdin.write(call)
         child.stdin.flush()
@@ -236,17 +302,18 @@ def _converse(
         elif kind == "tell":
             tell(value)
         elif kind != "heartbeat":
-            child.wait()
             return kind, value
 
 
-def _end(child: subprocess.Popen[bytes]) -> None:
-    """End the child if it still runs: terminate, then kill."""
+def _end(child: subprocess.Popen[bytes], leaving: float) -> None:
+    """End the child: close its pipe, after `leaving` (s) terminate it, then kill it."""
     assert child.stdin is not None
     assert child.stdout is not None
-    child.stdout.close()
     with contextlib.suppress(OSError):
         child.stdin.close()
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        child.wait(timeout=leaving)
+    child.stdout.close()
     if child.poll() is None:
         child.terminate()
         try:
@@ -300,15 +367,18 @@ def _signal(number: int) -> str:
 
 
 def serve(blender: bool = True, size: int = 0) -> None:
-    """Do the parent's work; worker side of `run`."""
+    """Do the parent's works until it closes the pipe; worker side of `Worker`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent decides
-    channel = os.fdopen(os.dup(1), "wb")
+    channel, source = os.fdopen(os.dup(1), "wb"), os.fdopen(os.dup(0), "rb")
     os.dup2(2, 1)
+    # Windows' libraries ask for stdin when they are loaded, and wait while its pipe is read.
+    with open(os.devnull, "rb") as nothing:
+        os.dup2(nothing.fileno(), 0)
     _set_binary(channel)
-    _set_binary(sys.stdin)
-    channel.write(_START)
-    channel.flush()
+    _set_binary(source)
     sending = threading.Lock()
+    calls: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    threading.Thread(target=_read_calls, args=(source, calls), daemon=True).start()
 
     def answer(kind: str, value: Any = None) -> None:
         data = pickle.dumps((kind, value))
@@ -319,25 +389,33 @@ def serve(blender: bool = True, size: int = 0) -> None:
     if blender:
         import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins; it must be Blender's)
 
+    while True:
+        call = calls.get()
+        channel.write(_START)
+        channel.flush()
+        answer(*_do(call, size, answer))
+
+
+def _do(call: bytes, size: int, answer: Callable[..., None]) -> Answer:
+    """Do a work, and return its last answer."""
     from ..errors import InputError
     from ..run.models import heartbeat
 
     try:
-        work: Work[Any] = pickle.load(sys.stdin.buffer)
-        threading.Thread(target=_watch_parent, daemon=True).start()
+        work: Work[Any] = pickle.loads(call)
         if size:
             memory.limit(size)
         with heartbeat.to(lambda: answer("heartbeat")):
             result = work(
                 progress=lambda *where: answer("progress", where), tell=lambda text: answer("tell", text)
             )
-        answer("result", result)
+        return "result", result
     except Exception as error:
         if not isinstance(error, InputError):
             traceback.print_exc()
-        answer("error", _as_firetwin_error(error))
-    sys.stderr.flush()
-    os._exit(0)  # Blender as a module may crash while the interpreter shuts down
+        return "error", _as_firetwin_error(error)
+    finally:
+        sys.stderr.flush()
 
 
 def _set_binary(stream: IO[Any]) -> None:
@@ -361,6 +439,12 @@ def _as_firetwin_error(error: Exception) -> Error:
     return TryAgainError(text) if again else Error(text)
 
 
-def _watch_parent() -> None:
-    sys.stdin.read()
-    os._exit(1)
+def _read_calls(source: IO[bytes], calls: queue.SimpleQueue[bytes]) -> None:
+    """Read calls of the parent; end this process when the parent closes the pipe or ends.
+
+    Blender as a module may crash while the interpreter shuts down, so nothing is shut down.
+    """
+    with contextlib.suppress(EOFError, pickle.UnpicklingError):
+        while True:
+            calls.put(pickle.load(source))
+    os._exit(0)

@@ -18,7 +18,7 @@ from matplotlib.patches import Polygon, Rectangle
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
-from ..run import front
+from ..run import front, measure
 
 if TYPE_CHECKING:
     from ..shot.cameras.path import Path
@@ -121,8 +121,7 @@ def _draw_field_of_view(axes: Axes, view: Path, frame: int, reach: float) -> Non
 
 def _draw_scale(axes: Axes, reach: float, tall: float, height: float) -> None:
     """Draw a scale bar of a round length and a north arrow."""
-    unit = 10.0 ** np.floor(np.log10(0.5 * reach))
-    length = max(step * unit for step in (1, 2, 5) if step * unit <= 0.5 * reach)
+    length = measure.round_length(0.5 * reach)
     size = 0.036 * height * 0.72
     x, y = -0.97 * reach, -0.92 * tall
     edge: dict[str, Any] = {"edgecolor": "black", "linewidth": 0.6, "zorder": 8}

@@ -94,7 +94,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         trees,
         *(thermal[name][..., None] for name in ("kelvin", "radiance")),
     ]
-    files["json"].write_text(cryptomatte.manifest(numbers) + "\n", encoding="utf-8")
+    files["json"].write_text(cryptomatte.manifest(numbers) + "\n", encoding="utf-8", newline="\n")
     named = dict(zip(NAMES, classes, strict=True))
     about = exr_tags.attributes(shot, camera, frame, _SAID)
     about |= cryptomatte.attributes(CLASSES, cryptomatte.manifest(named))

@@ -51,7 +51,7 @@ UNITS = {
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
     """Write the sidecar of a frame."""
     text = json.dumps(describe(shot, pixel_rays.path_of(shot.paths, camera), frame), indent=1) + "\n"
-    files["json"].write_text(text, encoding="utf-8")
+    files["json"].write_text(text, encoding="utf-8", newline="\n")
 
 
 def describe(shot: Shot, view: Path, frame: int) -> dict[str, Any]:

@@ -63,7 +63,7 @@ def _training_files(paths: list[str]) -> dict[str, str]:
 
 
 def _write_text(text: str, part: Path) -> None:
-    part.write_text(text, encoding="utf-8")
+    part.write_text(text, encoding="utf-8", newline="\n")
 
 
 def _frame(folder: Path, shown: str, passes: dict[str, list[str]]) -> dict[str, Any] | None:

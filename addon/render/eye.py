@@ -9,20 +9,21 @@ from typing import Any
 import numpy as np
 from firetwin_core import sensor, volume
 from firetwin_core.flames import FlameVolume
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ..blender import nodes
 from ..blender.owned import Stage
 from ..geometry.grids import blur, dilate
 from ..passes import masks
-from ..scene import flame_gaps, infrared, temperature
+from ..scene import cell_distances, infrared, temperature
 from ..scene.labels.material import COVER
 from ..scene.smoke import illumination
 from ..shot.sections.thermal import BANDS
 from ..shot.shot import Shot
 from ..smoke import shutter
-from . import composite, rays, smoke_range
-from . import flame_distance as flame_distances
+from . import composite, flame_distance, rays, smoke_range
+from .flame_distance import FlameCells
 from .surfaces import Channels
 
 Array = NDArray[np.float32]
@@ -35,7 +36,8 @@ _WHITE = 1.2  # radiance times 2^exposure above which lenses spread light visibl
 _PLACES = ((0.25, 0.25), (0.75, 0.75))  # positions of the marched rays in a pixel, which are averaged
 _MIDDLE = ((0.5, 0.5),)
 """The same for pixels without flames in the infrared, where smoke is smooth and nearly transparent."""
-_FINER_PLACES = tuple(((n + 0.5) / 8.0, (n * 3 % 8 + 0.5) / 8.0) for n in range(8))
+_EVERY, _EVEN = 2, 0.03  # pixels between rays of smoke in the infrared; relative range of distances around
+_FINER_PLACES = tuple(((n + 0.5) / 5.0, (n * 2 % 5 + 0.5) / 5.0) for n in range(5))
 """The same for pixels with flames in the infrared, where flames are a hundred times brighter than ground."""
 _HOT = 350.0  # K, hotter surfaces are burned ground or flames: no sunlit ground is
 _AROUND = 2  # pixels by which these pixels extend beyond those with flames on the first rays
@@ -53,8 +55,8 @@ class Eye:
     flames, outline
         Flames of the frame that are drawn as a volume, and the same with less detail, to find the pixels that
         show them; None if there are none.
-    flame_distance
-        Their distance in each cell of the picture (see `flame_distance`), m; None if surfaces do not know it.
+    flame_cells
+        Flames in each cell of the picture; None if surfaces do not know them.
     parts
         Keep the parts of the picture.
     """
@@ -68,7 +70,7 @@ class Eye:
         smoke: Sequence[volume.Bricks],
         flames: FlameVolume | None = None,
         outline: FlameVolume | None = None,
-        flame_distance: Array | None = None,
+        flame_cells: FlameCells | None = None,
         parts: bool = False,
     ) -> None:
         self.shot, self.stage, self.channels = shot, stage, channels
@@ -82,8 +84,11 @@ class Eye:
         )
         self.rays = self._through()
         self._flame_distance = np.zeros(self.shape, np.float32)
-        if flame_distance is not None:
-            self._flame_distance = flame_distances.of_pixels(flame_distance, height, width)
+        self._near_flames = np.ones(self.shape, bool)
+        """Pixels (h, w) that may show flames."""
+        if flame_cells is not None:
+            self._flame_distance = flame_distance.of_pixels(flame_cells.distance, height, width)
+            self._near_flames = flame_distance.of_pixels(flame_cells.lit, height, width)
         self.clear = np.ones(self.shape, np.float32)
         """Transmittance (h, w) of smoke, once `picture` has computed it."""
         self.parts = parts
@@ -126,13 +131,30 @@ class Eye:
         """March rays through `places` of each pixel to the taps (h, w, 3), m, and return their mean."""
         marched = np.zeros((*at.shape, 8 if parts else 4), np.float32)
         marched[..., 3::4] = not (self.smoke or self.flames)
-        if self.smoke or self.flames:
-            ends = at.reshape(-1, 3)
-            for weight, smoke, place in _marches(shutter.moments(self.smoke), places):
-                lines = _lines(self._through(at=place))
-                found = self._march(smoke, *lines, ends, parts)
-                marched += np.float32(weight) * found.reshape(marched.shape)
+        if not (self.smoke or self.flames):
+            return marched
+        near = self._near_flames if self.flames else np.zeros(self.shape, bool)
+        self._march_chosen(marched, near, at, parts, places, burning=True)
+        self._march_chosen(marched, ~near, at, parts, places, burning=False)
         return marched
+
+    def _march_chosen(
+        self,
+        marched: Array,
+        chosen: NDArray[np.bool_],
+        at: Array,
+        parts: bool,
+        places: Sequence[tuple[float, float]],
+        burning: bool,
+    ) -> None:
+        """March rays through `places` of chosen pixels (h, w), and set their means in (h, w, 3, n)."""
+        if not chosen.any():
+            return
+        total = np.zeros((int(chosen.sum()), *marched.shape[2:]), np.float32)
+        for weight, smoke, place in _marches(shutter.moments(self.smoke), places):
+            lines = _chosen(self._through(at=place), chosen)
+            total += np.float32(weight) * self._march(smoke, *lines, at[chosen], parts, burning)
+        marched[chosen] = total
 
     def _march(
         self,
@@ -141,9 +163,11 @@ class Eye:
         directions: NDArray[np.float64],
         ends: Array,
         parts: bool = False,
+        burning: bool = True,
     ) -> Array:
-        """March rays through smoke and flames, with the detail that pixels resolve."""
-        pixel, more = self.rays.pixel, self._burning | ({"parts": True} if parts else {})
+        """March rays through smoke and, if `burning`, flames, with the detail that pixels resolve."""
+        pixel, more = self.rays.pixel, self._burning if burning else {}
+        more = more | ({"parts": True} if parts else {})
         return volume.march(smoke, origins, directions, ends, self._light, self.step, pixel=pixel, **more)
 
     def _text_layer(self, rendered: composite.Surfaces, at: Array, text: Channels) -> Array:
@@ -181,16 +205,41 @@ class Eye:
         air = illumination.infrared_arguments(self.shot, self.stage, frame)
         burning, alight, within = air | self._burning, np.zeros(self.shape, bool), self.has_smoke_or_flames
         if self.flames and within.any():
-            outline = air | {"flames": self.outline}
-            alight[within] = self._march_infrared([], within, _PLACES, outline)[:, 1] < 1.0
+            outline, near = air | {"flames": self.outline}, within & self._near_flames
+            alight[near] = self._march_infrared([], near, _PLACES, outline)[:, 1] < 1.0
             alight = dilate(alight, _AROUND)
         marched = np.zeros((*self.shape, 2), np.float32)
         marched[..., 1] = 1.0
-        for chosen, places, met in ((within & ~alight, _MIDDLE, air), (alight, _FINER_PLACES, burning)):
+        plain = within & ~alight
+        sparse = plain & self._is_even
+        for chosen, places, met in ((plain & ~sparse, _MIDDLE, air), (alight, _FINER_PLACES, burning)):
             if chosen.any():
                 marched[chosen] = self._march_infrared(self.smoke, chosen, places, met)
+        if sparse.any():
+            marched[sparse] = self._interpolated(sparse, air)[sparse]
         light, through = np.moveaxis(marched, -1, 0)
         return bare * through + light
+
+    @functools.cached_property
+    def _is_even(self) -> NDArray[np.bool_]:
+        """Pixels (h, w) around which surfaces have nearly the same distance."""
+        far, near = dilate(self.distance, _EVERY), -dilate(-self.distance, _EVERY)
+        return np.asarray(far - near <= _EVEN * near)
+
+    def _interpolated(self, sparse: NDArray[np.bool_], air: dict[str, Any]) -> Array:
+        """Return infrared radiance and transmittance (h, w, 2), from a ray in every `_EVERY`-th pixel."""
+        height, width = self.shape
+        row, column = (np.unique(np.append(np.arange(0, side, _EVERY), side - 1)) for side in self.shape)
+        grid = np.ix_(row, column)
+        chosen = np.zeros(self.shape, bool)
+        chosen[grid] = dilate(sparse, _EVERY)[grid]
+        marched = np.zeros((*self.shape, 2), np.float32)
+        marched[chosen] = self._march_infrared(self.smoke, chosen, _MIDDLE, air)
+        down = np.interp(np.arange(height), row, np.arange(len(row)))
+        right = np.interp(np.arange(width), column, np.arange(len(column)))
+        values = np.ascontiguousarray(marched[grid])
+        rows, columns = np.meshgrid(down, right, indexing="ij")
+        return np.stack([bilinear(values[..., k], rows, columns) for k in (0, 1)], axis=-1)
 
     def _march_infrared(
         self,
@@ -202,11 +251,8 @@ class Eye:
         """Return mean radiance and transmittance (n, 2) of chosen pixels (h, w) over places in each pixel."""
         total = np.zeros((int(chosen.sum()), 2), np.float32)
         for place in places:
-            through = self._through(at=place)
-            origins = through.origins if through.origins.ndim == 1 else through.origins[chosen]
-            total += volume.march_infrared(
-                smoke, origins, through.directions[chosen], self.distance[chosen], **air
-            )
+            lines = _chosen(self._through(at=place), chosen)
+            total += volume.march_infrared(smoke, *lines, self.distance[chosen], **air)
         return total / np.float32(len(places))
 
     def _clear_sky(self, frame: int) -> Array:
@@ -296,7 +342,7 @@ class Eye:
             solid=surface[..., 1],
             fire_distance=self.rays.from_distance(far),
             flame_distance=self._flame_distance,
-            before=np.clip(channels[flame_gaps.AOV][..., 0], 0.0, 1.0),
+            before=np.clip(channels[cell_distances.AOV][..., 0], 0.0, 1.0),
             rays=self.stage.scene.cycles.samples,
         )
 
@@ -308,6 +354,12 @@ def _marches(
     for number, (weight, smoke) in enumerate(moments):
         chosen = places if len(moments) == 1 else (places[number % len(places)],)
         yield from ((weight / len(chosen), smoke, place) for place in chosen)
+
+
+def _chosen(lines: rays.Rays, chosen: NDArray[np.bool_]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return origins and directions of rays through chosen pixels (h, w)."""
+    origins = lines.origins if lines.origins.ndim == 1 else lines.origins[chosen]
+    return origins, lines.directions[chosen]
 
 
 def _lines(lines: rays.Rays) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

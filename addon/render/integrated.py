@@ -8,7 +8,6 @@ sample depth. Other passes, of one ray per pixel, come from a second render.
 from __future__ import annotations
 
 import functools
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -23,7 +22,7 @@ from numpy.typing import NDArray
 from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
 from ..geometry.grids import dilate
-from ..scene import flame_field, flame_gaps
+from ..scene import cell_distances, flame_field
 from ..scene.fire import build as fire
 from ..scene.fire import flame_volume
 from ..scene.smoke import illumination, shadow
@@ -31,11 +30,21 @@ from ..shot import exr_tags, passes
 from ..shot.fire import flame_map
 from ..shot.shot import Shot
 from ..smoke import sources
-from . import engine, flame_distance, frame_cost, layers, motion_blur, rays, surfaces, text_layer
+from . import (
+    engine,
+    flame_distance,
+    frame_cost,
+    layers,
+    motion_blur,
+    opaque_smoke,
+    rays,
+    surfaces,
+    text_layer,
+)
 from .eye import Eye
 from .picture import Picture
 
-_AOVS = {flame_gaps.AOV: "VALUE", nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
+_AOVS = {cell_distances.AOV: "VALUE", nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
 _PICTURE = "integrated picture"
 _BLOOM = {"Threshold": 2.5, "Maximum": 20.0}  # radiance times 2^exposure; text, of 2, has no bloom
 _OUTLINE = 640  # columns of a picture whose detail of flames is enough to find the pixels that show them
@@ -77,7 +86,8 @@ class IntegratedRenderer:
             _add_quantities(self.scene, each)
             pictures.setdefault("rgb", replace(pictures[each.name], name="rgb"))
         if self.shadow and "rgb" in pictures:
-            self.shadow.cast(self.stage, smoke)
+            with self.cost.part(frame_cost.SHADOW):
+                self.shadow.cast(self.stage, smoke)
         shared = [each for each in _shared() if each.name in pictures]
         flames = functools.cache(self._flames)  # for this frame alone: they take memory
         if shared:
@@ -101,7 +111,7 @@ class IntegratedRenderer:
         frame = pictures[first].frame
         infrared = any(each.shading == "radiance" and not each.geometry_only for each in shared)
         flames, outline = flames_of(frame)
-        distance = self._measure_flames(outline) if "rgb" in pictures else None
+        cells = self._measure_cells(outline, smoke) if "rgb" in pictures else None
         with self.cost.part(frame_cost.SURFACES):
             rendered = surfaces.render(self.scene, [first], part, infrared=infrared)
             wanted = self.has_text and "rgb" in pictures
@@ -115,7 +125,7 @@ class IntegratedRenderer:
                 smoke,
                 flames,
                 outline,
-                flame_distance=distance,
+                flame_cells=cells,
                 parts=bool(marched),
             )
             for number, channels in rendered
@@ -128,41 +138,47 @@ class IntegratedRenderer:
             for each in marched:
                 self._write_channels(each, eyes, bloom if each.bloom else [], pictures[each.name], part)
         for name in (each.name for each in shared if each.name != "rgb"):
-            with self.cost.part(frame_cost.MARCH):
+            with self.cost.part(name):
                 halves = [passes.modules()[name].march(eye, frame) for eye in eyes]
             self._write(part, pictures[name], np.concatenate(halves))
 
     def _flames(self, frame: int) -> Flames:
         """Return the flames of a frame that are drawn as a volume, and the same with detail for outlines."""
         (view,) = self.shot.paths
-        with self.cost.part(frame_cost.MARCH):
+        with self.cost.part(frame_cost.FLAMES):
             build = functools.partial(
                 flame_volume.build, self.shot, view, frame, fire.torching_crowns(self.stage)
             )
             flames = build()
             return flames, flames if view.width <= _OUTLINE else build(columns=_OUTLINE)
 
-    def _measure_flames(self, flames: FlameVolume | None) -> Array | None:
-        """Show surfaces the distance of flames in each cell, and return it; None if they cannot read it."""
-        render, camera = self.scene.render, self.stage.evaluated(self.scene.camera)
-        distance = None
-        if flames is not None and not render.use_multiview and camera.data.type == "PERSP":
-            (view,) = self.shot.paths
-            height, width = (
-                math.ceil(side / flame_distance.CELL) for side in (render.resolution_y, render.resolution_x)
-            )
-            with self.cost.part(frame_cost.MARCH):
-                distance = flame_distance.measure(
-                    flames,
-                    rays.pixel_rays(camera, self.scene, height, width, 0),
-                    illumination.light_without_smoke(self.stage),
-                    flame_map.FADE[1] * flame_map.reach(self.shot, view),
-                    2.0**-self.scene.view_settings.exposure,
-                )
-        # Rays at the edge of a cell read its neighbour: without flames there, nothing would be before them.
-        wide = None if distance is None else dilate(distance, 1)
-        flame_gaps.set_distance(self.stage, wide)
-        return distance
+    def _measure_cells(
+        self, flames: FlameVolume | None, smoke: Sequence[volume.Bricks]
+    ) -> flame_distance.FlameCells | None:
+        """Show surfaces the flames and the opaque smoke in each cell; return the flames.
+
+        None if there are none, or if surfaces cannot read them.
+        """
+        camera = self.stage.evaluated(self.scene.camera)
+        if self.scene.render.use_multiview or camera.data.type != "PERSP":
+            cell_distances.set_distances(self.stage)
+            return None
+        cells = wide = opaque = None
+        with self.cost.part(frame_cost.DISTANCE):
+            if flames is not None:
+                (view,) = self.shot.paths
+                farthest = flame_map.FADE[1] * flame_map.reach(self.shot, view)
+                white = 2.0**-self.scene.view_settings.exposure
+                lines = rays.cell_rays(camera, self.scene, flame_distance.CELL)
+                cells = flame_distance.measure(flames, lines, farthest, white)
+                # Rays at the edge of a cell read its neighbour: without flames there, nothing would be
+                # before them.
+                wide = dilate(cells.distance, 1)
+            if smoke:
+                extinction = illumination.extinction_factor(self.stage)
+                opaque = opaque_smoke.measure(smoke, camera, self.scene, extinction)
+        cell_distances.set_distances(self.stage, wide, opaque)
+        return cells
 
     def _blurred(self, eye: Eye, text: surfaces.Channels | None, frame: int) -> Array:
         """Compute the radiance (h, w, 3) of an eye, blurred by the camera's motion."""
@@ -206,7 +222,7 @@ class IntegratedRenderer:
         for name in (name for name, other in drawn_by.items() if name != other):
             layer = layers.find_layer(self.scene, drawn_by[name])
             setattr(layer, layers.rendered(name).layer_property, True)
-        with self.cost.part(frame_cost.SURFACES):
+        with self.cost.part(frame_cost.CENTRES):
             eyes = surfaces.render(self.scene, set(drawn_by.values()), part, centres=True)
         for picture in pictures:
             socket, halves = layers.rendered(picture.name).socket, []
@@ -215,7 +231,8 @@ class IntegratedRenderer:
                 channels = found[drawn_by[picture.name]]
                 if march:
                     eye = Eye(self.shot, self.stage, channels, number, smoke, *flames_of(picture.frame))
-                    halves.append(march(eye, picture.frame))
+                    with self.cost.part(picture.name):
+                        halves.append(march(eye, picture.frame))
                 else:
                     halves.append(channels["Combined" if socket == "Image" else socket])
             self._write(part, picture, np.concatenate(halves))
@@ -281,13 +298,14 @@ class IntegratedRenderer:
     def _composite(self, light: Array, picture: Picture, part: Path) -> None:
         """Replace Cycles' picture in the compositor by this radiance, and write the PNG."""
         file = part / "light.exr"
-        sensor.write_image(file, light)
-        self.image.filepath = str(file)
-        self.image.reload()
-        _set_bloom(self.scene)
-        layers.write_exr(self.scene, str(part), [])
-        self.scene.render.filepath = str(part / Path(picture.file("png")).name)
-        bpy.ops.render.render(write_still=True, scene=self.scene.name)
+        with self.cost.part(frame_cost.COMPOSITOR):
+            sensor.write_image(file, light)
+            self.image.filepath = str(file)
+            self.image.reload()
+            _set_bloom(self.scene)
+            layers.write_exr(self.scene, str(part), [])
+            self.scene.render.filepath = str(part / Path(picture.file("png")).name)
+            bpy.ops.render.render(write_still=True, scene=self.scene.name)
         file.unlink()
 
 

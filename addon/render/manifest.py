@@ -123,10 +123,20 @@ _OF_SETTINGS: dict[str, Callable[[Any], bool]] = {
 }
 
 
-def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:
-    """Write the manifest atomically: readers get either the new or the previous one."""
-    text = json.dumps({"format": _FORMAT, "settings": settings, "files": entries}, indent=1) + "\n"
-    files.write_text(out / NAME, text)
+def write(
+    out: Path, settings: dict[str, Any], entries: dict[str, Any], costs: dict[str, Any] | None = None
+) -> None:
+    """Write the manifest atomically: readers get either the new or the previous one.
+
+    Parameters
+    ----------
+    costs
+        Mean processor seconds of a frame, by camera and part.
+    """
+    content = {"format": _FORMAT, "settings": settings, "files": entries}
+    if costs:
+        content["processor_seconds"] = costs
+    files.write_text(out / NAME, json.dumps(content, indent=1) + "\n")
 
 
 def versions(settings: Iterable[Mapping[str, Any]]) -> list[tuple[str, str]]:

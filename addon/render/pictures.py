@@ -96,6 +96,8 @@ def render(
         tell(text)
     if rendered > 1:
         _tell_costs(cost, wanted[0].camera, stops, tell)
+    if rendered:
+        session.store.add_cost(wanted[0].camera, cost.mean())
     return rendered
 
 
@@ -139,7 +141,8 @@ def _frame(
         return []  # the new holder of the lease renders the frame
     if not queue.holds_lease():
         return []
-    publish(shot, session, part, finished, frame.words, engine.exposure(stage.scene))
+    with cost.part(frame_cost.FILES):
+        publish(shot, session, part, finished, frame.words, engine.exposure(stage.scene))
     return finished
 
 

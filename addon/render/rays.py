@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import bpy
@@ -48,6 +49,16 @@ class Rays:
         """Convert distances from the camera, m, to distances (h, w) along the rays."""
         square = distance.astype(np.float64) ** 2 - self.aside**2
         return np.sqrt(np.maximum(square, 0.0)).astype(np.float32)
+
+
+def cells(scene: bpy.types.Scene, side: int) -> tuple[int, int]:
+    """Return the numbers of rows and columns of cells of `side` x `side` pixels in a scene's picture."""
+    return math.ceil(scene.render.resolution_y / side), math.ceil(scene.render.resolution_x / side)
+
+
+def cell_rays(camera: bpy.types.Object, scene: bpy.types.Scene, side: int) -> Rays:
+    """Compute one ray in each of these cells."""
+    return pixel_rays(camera, scene, *cells(scene, side), 0)
 
 
 def pixel_rays(

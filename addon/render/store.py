@@ -20,6 +20,7 @@ from ..shot import passes
 from . import manifest
 
 NAME = "store.sqlite"
+_COSTS = "processor seconds"
 _JOB = "farm/job.json"  # whose tasks write pictures before there is a store
 _TABLES = f"""
 CREATE TABLE files (number INTEGER PRIMARY KEY AUTOINCREMENT, path TEXT UNIQUE, settings TEXT, camera TEXT,
@@ -144,6 +145,14 @@ class Store:
         """Store a note under a name."""
         self.data.execute("INSERT OR REPLACE INTO notes VALUES (?, ?)", name, note)
 
+    def add_cost(self, camera: str, seconds: dict[str, float]) -> None:
+        """Note the mean processor seconds of a camera's frames in the last render, by part."""
+        rounded = {name: round(value, 2) for name, value in seconds.items()}
+        self.write_note(_COSTS, json.dumps(self._costs() | {camera: rounded}))
+
+    def _costs(self) -> dict[str, Any]:
+        return json.loads(self.note(_COSTS) or "{}")
+
     def export(self) -> None:
         """Write the manifest unless it is up to date."""
         number = str(self.latest_number())
@@ -154,7 +163,7 @@ class Store:
         made = self.data.fetch_all("SELECT key, made FROM settings ORDER BY key")
         settings = {key: json.loads(text) for key, text in made if key in used}
         entries = {path: json.loads(entry) | {"settings": key} for path, key, entry in rows}
-        manifest.write(self.out, settings, entries)
+        manifest.write(self.out, settings, entries, self._costs())
         self.write_note("exported", number)
 
     def _stamp(self, path: str) -> str | None:

@@ -159,7 +159,7 @@ def _text(
     side: str,
 ) -> None:
     strip = compat.new_strip(editor, words, "TEXT", channel, start, length)
-    strip.text, strip.font_size, strip.font = words, size, compat.typeface()
+    strip.text, strip.font_size, strip.font = words, size, compat.strip_typeface(words)
     strip.color, strip.location = (1.0, 1.0, 1.0, 1.0), place
     strip.anchor_x, strip.anchor_y, strip.alignment_x = side, "BOTTOM", side
     strip.use_shadow, strip.shadow_color = True, (0.0, 0.0, 0.0, 0.8)

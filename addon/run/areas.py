@@ -90,3 +90,26 @@ def cell_size(
     if within is not None and width == height == 0.0:
         width, height = spacing(*within, at)
     return width or height or _ALONE, height or width or _ALONE
+
+
+def bounds(
+    latitude: ArrayLike, longitude: ArrayLike, marked: NDArray[np.bool_]
+) -> tuple[float, float, tuple[float, float]]:
+    """Return latitude and longitude (degrees) of the middle of marked cells, and their width and height (m).
+
+    Parameters
+    ----------
+    latitude, longitude
+        Centres of the cells, (ny,) and (nx,), degrees.
+    marked
+        Marked cells (ny, nx); all of them if none is marked.
+    """
+    if not marked.any():
+        marked = np.ones_like(marked)
+    rows, columns = (np.flatnonzero(marked.any(axis))[[0, -1]] for axis in (1, 0))
+    ends = np.asarray(latitude, np.float64)[rows], np.asarray(longitude, np.float64)[columns]
+    middle = [float(each.mean()) for each in ends]
+    tall, wide = (
+        abs(float(np.diff(each)[0])) * m for each, m in zip(ends, metres_per_degree(middle[0]), strict=True)
+    )
+    return middle[0], middle[1], (wide, tall)

@@ -172,7 +172,7 @@ def _save(folder: Path, places: Iterable[Path]) -> None:
         part = place.with_name(f"{place.name}.{uuid.uuid4().hex}")
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
-            part.write_text(json.dumps(record), encoding="utf-8")
+            part.write_text(json.dumps(record), encoding="utf-8", newline="\n")
             part.replace(place)
         except OSError:
             with contextlib.suppress(OSError):

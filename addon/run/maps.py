@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from .. import output
 from ..data import history
 from ..geometry.polygons import area
-from . import areas, burned_fraction, thumbnails, times
+from . import areas, burned_fraction, measure, thumbnails, times
 from .observations import Observations
 from .observations.infrared_detections import KINDS
 
@@ -298,9 +298,7 @@ def _colour_bar(figure: Figure, axes: Axes, image: QuadMesh, label: str, extend:
 
 def _scale_bar(axes: Axes, width: float) -> None:
     """Draw a scale bar of a round length in km, about a fifth of the map, in the lower left corner."""
-    target = width / 1e3 / 5
-    unit = 10.0 ** np.floor(np.log10(target))
-    length = max(step for step in (1, 2, 5) if step * unit <= target) * unit
+    length = measure.round_length(width / 1e3 / 5)
     share = length * 1e3 / width
     x, y, thick = 0.035, 0.035, 0.011
     axes.add_patch(

@@ -1,7 +1,8 @@
-"""Units of quantities on pages: areas and lengths, in US and metric units."""
+"""Units of quantities on pages and in films: areas, lengths and speeds, in US and metric units."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -20,7 +21,7 @@ class Measure:
     name
         Short name, as in a column title.
     factor
-        Number of these units in one SI unit (m, m2 or kg/m2).
+        Number of these units in one SI unit (m, m2, m/s or kg/m2).
     digits
         Digits after the point.
     """
@@ -34,8 +35,11 @@ class Measure:
         return f"{value * self.factor:,.{self.digits}f}"
 
 
+MILE = 1609.344
+"""International mile, m."""
 ACRES = Measure("acres", 1.0 / SQUARE_METRES_PER_ACRE)
 METRES = Measure("m", 1.0)
+MILES_PER_HOUR = Measure("mph", 3600.0 / MILE)
 AREA: dict[Units, Measure] = {"us": ACRES, "metric": Measure("ha", 1e-4)}
 
 
@@ -48,3 +52,9 @@ def area(square_metres: float, units: Units) -> str:
 def ordered(us: str, metric: str, units: Units) -> str:
     """Put the quantity in the second units into brackets."""
     return f"{us} ({metric})" if units == "us" else f"{metric} ({us})"
+
+
+def round_length(most: float) -> float:
+    """Return the largest round length up to `most` for a scale bar: 1, 2 or 5 times a power of ten."""
+    unit = 10.0 ** math.floor(math.log10(most))
+    return max(step * unit for step in (1, 2, 5) if step * unit <= most)

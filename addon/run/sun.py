@@ -51,6 +51,7 @@ def fixed(bearing: float, height: float, moon: Moon = NO_MOON) -> Iterator[None]
         _fixed.pop()
 
 
+@functools.lru_cache(maxsize=1024)
 def angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
     """Compute the solar bearing, clockwise from north, and elevation with refraction, degrees (NOAA)."""
     observer = Observer(latitude, longitude, 0.0)
@@ -102,7 +103,7 @@ def moon(run: Run, time: float) -> Moon:
     return Moon(bearing, height, float(bright * through))
 
 
-@functools.lru_cache(maxsize=1)  # `moon` asks twice
+@functools.lru_cache(maxsize=1024)  # `moon` asks twice, and each view of a film again
 def moon_angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
     """Compute the moon's bearing, clockwise from north, and elevation, degrees, within 0.1.
 

@@ -11,14 +11,14 @@ import numpy as np
 from ..blender import node_updates, owned
 from ..progress import MessageCallback
 from ..shot.light import exposure
-from ..shot.shot import Shot
+from ..shot.shot import Shot, cached_in_film
 from ..shot.surface import footprints
 from ..shot.tiles import tile_cut
 from . import clock, curved_air, infrared, temperature
 from .camera import build as camera
 from .fire import build as fire
+from .forest import biomes, stand
 from .forest import build as forest
-from .forest import stand
 from .labels import build as labels
 from .light import build as light
 from .smoke import build as smoke
@@ -106,7 +106,8 @@ def _steps(
     if grown is None and shot.settings.forest.trees and _WITH_STAND & set(parts):
         yield "growing the forest"
         if "terrain" in parts:
-            grown, shape = _grow_and_shape(shot)
+            name = f"forest of {' and '.join(each.name for each in shot.settings.cameras)}"
+            grown, shape = cached_in_film(name, shot, lambda: _grow_and_shape(shot), biomes.choose(shot))
         else:
             grown = stand.grow(shot)
 

@@ -4,12 +4,14 @@ A feature's ``scene_inputs.py`` has, each for the settings:
 
 - ``ASPECT``, the aspect of passes that depend on its files, and ``files``, which lists the files
 - ``check``, with the run, and ``check_others``, with the comparison runs by name: errors have the line
+- ``window``, UTC between which shots show them; None without inputs
 - ``sources``, rows of citations, and ``sentences`` for the paragraph on methods
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from datetime import datetime
 from pathlib import Path
 
 from firetwin_core.run import Run
@@ -53,6 +55,12 @@ def check_others(settings: Settings, runs: Mapping[str, Run]) -> None:
     """Check that they fit the comparison runs; errors as `check`."""
     for feature in plugins.of_features(_NAME):
         feature.check_others(settings, runs)
+
+
+def windows(settings: Settings) -> list[tuple[datetime, datetime]]:
+    """List the times, UTC, between which shots show the inputs."""
+    every = (feature.window(settings) for feature in plugins.of_features(_NAME))
+    return [window for window in every if window is not None]
 
 
 def sources(settings: Settings) -> list[dict[str, str]]:

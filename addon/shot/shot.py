@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection
 from dataclasses import replace
 from datetime import datetime
 from functools import cached_property
+from pathlib import Path as FolderPath
 from typing import Any, TypeVar
 
 import numpy as np
@@ -42,6 +43,7 @@ from .terrain.terrain import Terrain
 _BURNING_BEFORE = 3600.0  # s before the first frame; ground that burned in this time still counts as burning
 WIDE_LENS = 28.0  # mm, reference focal length at which orthographic views are compared with perspective ones
 _SPIN_UP = 1800.0  # s, spin-up of a fire 15 km across
+_OF_FIRE = "front", "flame_length"  # cached properties that do not depend on times and cameras
 _NO_FIRE_DISTANCE = 20_000.0  # m, fire distance of a shot without cameras or without fire
 
 
@@ -58,6 +60,25 @@ def cached_on_shot(compute: Callable[[Shot], Value]) -> Callable[[Shot], Value]:
         return shot.cached[compute]
 
     return cached
+
+
+_FILM: dict[str, tuple[Any, Any]] = {}
+"""Values for the film of a growing run in this process, by name, each with its inputs."""
+
+
+def cached_in_film(name: str, shot: Shot, compute: Callable[[], Value], *inputs: Any) -> Value:
+    """Return a value that does not depend on the run's times, except through `inputs`.
+
+    A process that films a growing run computes it once for all known runs (see `run.content.IDENTITY`).
+    """
+    film = content.identity(FolderPath(shot.run.path))
+    if not film:
+        return compute()
+    settings = replace(shot.settings, run=FolderPath(), cache=FolderPath())
+    wanted = film, settings, *inputs
+    if name not in _FILM or _FILM[name][0] != wanted:
+        _FILM[name] = wanted, compute()
+    return _FILM[name][1]
 
 
 class Shot:
@@ -203,6 +224,8 @@ class Shot:
         shot = Shot(settings, self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
         shot.scale, shot.arrival, shot.cameras = self.scale, self.arrival, self.cameras
+        if settings.fire == self.settings.fire:
+            shot.__dict__ |= {name: self.__dict__[name] for name in _OF_FIRE if name in self.__dict__}
         return shot
 
     def camera(self, name: str) -> Camera:
@@ -264,7 +287,10 @@ class Shot:
     @cached_property
     def bare_ground(self) -> Terrain:
         """Terrain without camera-dependent detail."""
-        return Terrain(self.settings, self.run, self.fire.arrival, self.relief)
+        arrival = self.fire.arrival
+        never = np.full(arrival.shape, np.nan)
+        land = cached_in_film("land", self, lambda: Terrain(self.settings, self.run, never, self.relief))
+        return land.with_fire(self.run, arrival)
 
     @cached_property
     def front(self) -> flame_depth.FrontFields:

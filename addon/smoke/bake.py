@@ -15,6 +15,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
+from .. import memory
 from ..errors import writing
 from ..progress import MessageCallback, Progress, count, no_message, share, silent, size
 from ..run import content
@@ -240,7 +241,7 @@ def _mark(path: Path) -> None:
     """Write the marker of a volume file, unless it exists."""
     if not marker(path).exists():
         with writing(path):
-            marker(path).write_text("complete\n", encoding="utf-8")
+            marker(path).write_text("complete\n", encoding="utf-8", newline="\n")
 
 
 def volume_path(place: Path, frame: int) -> Path:
@@ -264,11 +265,7 @@ def _prepare_folder(shot: Shot, progress: Progress) -> Path:
 
 def _parallel_frames(frames: int) -> int:
     """Return the number of frames to bake in parallel."""
-    try:
-        free = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    except (AttributeError, OSError, ValueError):
-        free = _FRAME_MEMORY
-    return max(1, min(frames, (os.cpu_count() or 1) // _FRAME_PROCESSORS, free // _FRAME_MEMORY))
+    return max(1, min(frames, (os.cpu_count() or 1) // _FRAME_PROCESSORS, memory.free() // _FRAME_MEMORY))
 
 
 def _cache_key(shot: Shot, progress: Progress) -> str:

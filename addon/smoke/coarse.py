@@ -23,6 +23,8 @@ LEAD = 200.0
 """s, on cells of `smoke_scale.REFERENCE`, that the nest is solved before a moment."""
 COLUMNS = (9000, 24_000)
 """Columns of the coarse domain and of its nest at most: three seconds of work."""
+LAPSE_COLUMNS = 20_000
+"""Columns of the domain of a time lapse at most."""
 _WIDER = (2, 3, 4, 6, 8)  # cells of the shot's domain along a coarse cell: the first with few enough columns
 _FINER = (3, 2)  # cells of the nest along a coarse cell: the first with few enough columns
 _SPIN_UP = 0.6  # of the shot's, as smoke far from the fire is before no camera (assumed)
@@ -57,8 +59,17 @@ class CoarseFlow(Flow):
         """Boxes of the coarse domain and of its nest; none without fire."""
         if self._around is None:
             return []
-        box = _coarsen(self._around)
+        box = _coarsen(self._around, COLUMNS[0])
         return [box, _nest_box(self.shot, box)]
+
+
+class LapseFlow(CoarseFlow):
+    """Coarse flow of a time lapse, without a nest: hours of a single domain cost less."""
+
+    @functools.cached_property
+    def boxes(self) -> list[Box]:
+        """Box of the domain; none without fire."""
+        return [] if self._around is None else [_coarsen(self._around, LAPSE_COLUMNS)]
 
 
 def with_longer_steps(shot: Shot) -> Shot:
@@ -79,7 +90,11 @@ def layers(solved: list[Domain], voxel: float = 0.0) -> list[flow_frames.Layer]:
     """
     if not solved:
         return []
-    outer, nest = solved
+    outer, *nests = solved
+    if not nests:
+        step = outer.box.spacing
+        return [flow_frames.Layer("smoke", outer, voxel or _VOXELS[0] * step, fine=False, ground_step=step)]
+    (nest,) = nests
     steps = outer.box.spacing, nest.box.spacing
     far, near = (part * step for part, step in zip(_VOXELS, steps, strict=True))
     return [
@@ -88,10 +103,10 @@ def layers(solved: list[Domain], voxel: float = 0.0) -> list[flow_frames.Layer]:
     ]
 
 
-def _coarsen(box: Box) -> Box:
-    """Join cells of a box, and its upper levels."""
+def _coarsen(box: Box, columns: int) -> Box:
+    """Join cells of a box to at most so many columns, and its upper levels."""
     allowed = [n for n in _WIDER if min(box.shape) >= n * _NARROWEST]
-    wider = next((n for n in allowed if math.prod(box.shape) <= n * n * COLUMNS[0]), allowed[-1])
+    wider = next((n for n in allowed if math.prod(box.shape) <= n * n * columns), allowed[-1])
     rows, columns = (count // wider for count in box.shape)
     levels = (*box.levels[:_LOW], *box.levels[_LOW::2])
     return Box(levels, (rows, columns), wider * box.spacing, box.corner)

@@ -8,11 +8,13 @@ from pathlib import Path
 
 from ..progress import duration, size
 from ..shot.fire.smoke_scale import FINER
+from .coarse import CoarseFlow, LapseFlow
 from .domains import Domain
 from .flow import Flow
 
 # cells per second on 2 cores (tests/benchmarks/solved_smoke.py); other machines differ by a factor of 2
 _SPEED = 1.5e7
+_LAPSE_SPEED = 3.0e6  # of time lapses, in whose long steps heat sources cost more than cells
 _KEPT = 2.2  # bytes of a snapshot per cell of its domain, measured with smoke in most of it
 
 
@@ -20,7 +22,8 @@ _KEPT = 2.2  # bytes of a snapshot per cell of its domain, measured with smoke i
 class Cost:
     """Cost of solving a flow: s of fire time, s of computation on 2 cores, bytes, cell widths, and folder.
 
-    `first` is the part of the computation, s, that precedes the first picture; 0 if that is solved.
+    `first` is the part of the computation, s, that precedes the first picture; 0 if that is solved. `coarse`
+    is True for previews.
     """
 
     time: float
@@ -29,6 +32,7 @@ class Cost:
     bytes: float
     cells: str
     folder: Path
+    coarse: bool = False
 
     def brief(self) -> str:
         """Format the cost briefly: ``about 2 min, 1.1 GB``."""
@@ -37,11 +41,11 @@ class Cost:
     def describe(self) -> str:
         """Describe time, disk space and the alternative in a sentence."""
         before = f" ({duration(self.first)} before the first picture)" if self.first else ""
-        return (
+        text = (
             f"the air over {duration(self.time)} of the fire is solved once in cells of {self.cells}, which "
-            f"takes about {duration(self.seconds)} on 2 cores{before} and {size(self.bytes)} in "
-            f'{self.folder}; smoke.method = "preview" takes seconds'
+            f"takes about {duration(self.seconds)} on 2 cores{before} and {size(self.bytes)} in {self.folder}"
         )
+        return text if self.coarse else f'{text}; smoke.method = "preview" takes seconds'
 
 
 def estimate(flow: Flow) -> Cost | None:
@@ -63,8 +67,10 @@ def estimate(flow: Flow) -> Cost | None:
         work += spin_up + domain.cells * film
     room = _KEPT * frames.count * sum(domain_left.cells for domain_left in missing)
     folder = flow.domains[-1].folder.parent
-    seconds = work / _SPEED, 0.0 if flow.has(1) else first / _SPEED
-    return Cost(frames.last - flow.begin, *seconds, room, _widths(flow.domains), folder)
+    speed = _LAPSE_SPEED if isinstance(flow, LapseFlow) else _SPEED
+    seconds = work / speed, 0.0 if flow.has(1) else first / speed
+    widths, is_coarse = _widths(flow.domains), isinstance(flow, CoarseFlow)
+    return Cost(frames.last - flow.begin, *seconds, room, widths, folder, is_coarse)
 
 
 def _widths(solved: list[Domain]) -> str:

@@ -35,7 +35,7 @@ class ImportOptions:
     )
 
 
-class FIRETWIN_OT_convert(ImportOptions, Working, bpy.types.Operator):
+class FIRETWIN_OT_convert(working.Editable, ImportOptions, Working, bpy.types.Operator):
     """Convert a fire model's files to a run, next to them or in the output folder, and open the run"""
 
     bl_idname = "firetwin.convert"
@@ -45,10 +45,6 @@ class FIRETWIN_OT_convert(ImportOptions, Working, bpy.types.Operator):
     filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
     directory: bpy.props.StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE"})
     files: bpy.props.CollectionProperty(type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE"})
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Convert in a worker process, unless the run already exists; then inspect the run."""

@@ -71,7 +71,7 @@ def update_presets() -> None:
             with contextlib.suppress(OSError, UnicodeDecodeError, InputError):  # it stays as it is
                 text = files.read_text(path, most=SETTINGS_BYTES)
                 if (new := _with_present_names(text)) != text:
-                    path.write_text(new, encoding="utf-8")
+                    path.write_text(new, encoding="utf-8", newline="\n")
 
 
 def _with_present_names(preset: str) -> str:

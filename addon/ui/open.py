@@ -18,7 +18,7 @@ _RUN = "run.toml"
 _FILES = "*.toml;*.nc;*.npz;*.asc;*.tif;*.tiff;*.bil;*.lcp;*.prj;*.geojson;*.kml;*.csv;*.ff;wrfout*"
 
 
-class FIRETWIN_OT_open(foreign.ImportOptions, bpy.types.Operator, ImportHelper):
+class FIRETWIN_OT_open(working.Editable, foreign.ImportOptions, bpy.types.Operator, ImportHelper):
     """Open a run (its run.toml or its folder), a scene file, or a fire model's files"""
 
     bl_idname = "firetwin.open"
@@ -36,10 +36,6 @@ class FIRETWIN_OT_open(foreign.ImportOptions, bpy.types.Operator, ImportHelper):
     files: bpy.props.CollectionProperty(
         type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"}
     )
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if self.filepath and Path(self.filepath).is_file():  # dropped on the view
@@ -108,7 +104,7 @@ class FIRETWIN_FH_open(bpy.types.FileHandler):
         return context.area is not None and context.area.type == "VIEW_3D"
 
 
-class FIRETWIN_OT_sample(Working, bpy.types.Operator):
+class FIRETWIN_OT_sample(working.Editable, Working, bpy.types.Operator):
     """Write the sample run, a synthetic King Fire, to this computer and open it; nothing is downloaded"""
 
     bl_idname = "firetwin.sample"
@@ -121,10 +117,6 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
         subtype="DIR_PATH",
         options={"SKIP_SAVE"},
     )
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Write the run in a worker process, unless it exists; then inspect it."""

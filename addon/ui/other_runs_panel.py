@@ -34,7 +34,7 @@ class FIRETWIN_OT_run_add(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FIRETWIN_OT_run_remove(bpy.types.Operator):
+class FIRETWIN_OT_run_remove(working.Editable, bpy.types.Operator):
     """Remove this run from the list"""
 
     bl_idname = "firetwin.run_remove"
@@ -42,10 +42,6 @@ class FIRETWIN_OT_run_remove(bpy.types.Operator):
     bl_options = {"UNDO", "INTERNAL"}
 
     index: bpy.props.IntProperty(options={"SKIP_SAVE"})
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:

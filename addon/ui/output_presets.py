@@ -15,7 +15,7 @@ from .text import labelled_row
 _ITEMS = [(name, keys.label(name), each.help) for name, each in output_presets.PRESETS.items()]
 
 
-class FIRETWIN_OT_output_preset(bpy.types.Operator):
+class FIRETWIN_OT_output_preset(working.Editable, bpy.types.Operator):
     """Set passes, EXR files and films for a kind of post-production"""
 
     bl_idname = "firetwin.output_preset"
@@ -28,10 +28,6 @@ class FIRETWIN_OT_output_preset(bpy.types.Operator):
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """Return the tooltip."""
         return output_presets.PRESETS[properties.preset].help
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:

@@ -80,7 +80,7 @@ def _find_field(section: str, name: str) -> Field:
     return next(part for part in fields(kind) if part.name == name)
 
 
-class FIRETWIN_OT_quality(bpy.types.Operator):
+class FIRETWIN_OT_quality(working.Editable, bpy.types.Operator):
     """Set trees, terrain, smoke, resolution and samples together"""
 
     bl_idname = "firetwin.quality"
@@ -94,17 +94,13 @@ class FIRETWIN_OT_quality(bpy.types.Operator):
         """Return the tooltip."""
         return f"{_STEPS[properties.level][0]}. Rebuild the scene to apply it"
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
-
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         apply(context.scene.firetwin, self.level)
         return {"FINISHED"}
 
 
-class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
+class FIRETWIN_OT_preset(working.Editable, AddPresetBase, bpy.types.Operator):
     """Save these settings as a preset, or remove a preset"""
 
     bl_idname = "firetwin.preset"
@@ -113,10 +109,6 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
     preset_subdir = "firetwin"
     bl_options = {"REGISTER"}
     preset_defines = ["firetwin = bpy.context.scene.firetwin"]
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
 
     @property
     def preset_values(self) -> list[str]:

@@ -10,7 +10,7 @@ from bpy_extras.io_utils import ImportHelper
 from . import working
 
 
-class FIRETWIN_OT_regrade(bpy.types.Operator, ImportHelper):
+class FIRETWIN_OT_regrade(working.Editable, bpy.types.Operator, ImportHelper):
     """Grade flames, smoke, lights and haze of a film of the pass comp in the compositor of this scene"""
 
     bl_idname = "firetwin.regrade"
@@ -19,10 +19,6 @@ class FIRETWIN_OT_regrade(bpy.types.Operator, ImportHelper):
 
     filename_ext = ".exr"
     filter_glob: bpy.props.StringProperty(default="*.exr", options={"HIDDEN"})
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:

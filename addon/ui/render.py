@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..progress import count
-from . import job, output_presets, run, scene_file, sidebar, working
+from . import output_presets, run, scene_file, sidebar, working
 from .job import InThread, Steps
 from .sidebar import SidebarPanel
 from .text import draw_paragraph
@@ -72,10 +72,7 @@ class FIRETWIN_PT_render(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        column = layout.column()
-        column.enabled = job.Job.current is None
+        column = working.settings_column(layout)
         column.prop(settings, "output")
         column.prop(settings, "cache", placeholder="In the output")
         column.prop(settings, "camera")

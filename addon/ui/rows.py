@@ -58,7 +58,7 @@ def _needs_full_width(part: Field) -> bool:
     return part.type is not str or part.key.choices is None
 
 
-class FIRETWIN_OT_reset(bpy.types.Operator):
+class FIRETWIN_OT_reset(working.Editable, bpy.types.Operator):
     """Reset this setting, or all settings of a section, to their defaults"""
 
     bl_idname = "firetwin.reset"
@@ -67,10 +67,6 @@ class FIRETWIN_OT_reset(bpy.types.Operator):
 
     section: bpy.props.StringProperty(options={"SKIP_SAVE"})
     key: bpy.props.StringProperty(options={"SKIP_SAVE"})
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:

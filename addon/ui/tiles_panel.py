@@ -104,16 +104,12 @@ def _cut(
     return tile_cut.of_shot(selection.coarse_shot(shot) if coarse else shot)
 
 
-class FIRETWIN_OT_tiles_clear(bpy.types.Operator):
+class FIRETWIN_OT_tiles_clear(working.Editable, bpy.types.Operator):
     """Remove the preview of tiles; tiles that were built stay"""
 
     bl_idname = "firetwin.tiles_clear"
     bl_label = "Remove tile preview"
     bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:

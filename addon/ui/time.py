@@ -59,7 +59,7 @@ class FIRETWIN_OT_jump(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FIRETWIN_OT_window(bpy.types.Operator):
+class FIRETWIN_OT_window(working.Editable, bpy.types.Operator):
     """Set the first or last frame to this time of the run"""
 
     bl_idname = "firetwin.window"
@@ -68,10 +68,6 @@ class FIRETWIN_OT_window(bpy.types.Operator):
 
     moment: bpy.props.StringProperty(options={"SKIP_SAVE"})
     key: bpy.props.StringProperty(options={"SKIP_SAVE"})
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return working.is_editable(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:

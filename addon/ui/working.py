@@ -39,6 +39,15 @@ def is_editable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bo
     return is_free(cls)
 
 
+class Editable:
+    """An operator of an editable scene, while no task is running."""
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether it can be used."""
+        return is_editable(cls, context)
+
+
 def is_object_mode(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Return whether Blender is in object mode; otherwise set the poll message."""
     if context.mode != "OBJECT":
@@ -227,6 +236,15 @@ def redraw() -> None:
                 for region in area.regions:
                     if region.type == "UI":
                         region.tag_redraw()
+
+
+def settings_column(layout: bpy.types.UILayout) -> bpy.types.UILayout:
+    """Return a column of settings, which are locked while a task runs."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    column = layout.column()
+    column.enabled = Job.current is None
+    return column
 
 
 def draw_button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon: str) -> None:

@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "flames/flames.hpp"
+#include "volume/flame_distance.hpp"
 #include "volume/infrared.hpp"
 #include "volume/optical_depth.hpp"
 
@@ -102,6 +103,16 @@ Array<float> march(const LayerList& layers, const py::object& origins, const py:
   return found;
 }
 
+Array<float> flame_distance(const FlameVolume& flames, const py::object& origins,
+                            const py::object& directions, float farthest) {
+  const RayArrays given({}, origins, directions);
+  auto found = new_array<float>({given.size(), 2});
+  const std::span<float> out = writable(found);
+  const py::gil_scoped_release release;
+  volume::flame_distance(flames, given.rays(), farthest, out);
+  return found;
+}
+
 Array<float> optical_depth(const LayerList& layers, const py::object& origins,
                            const py::object& directions, const py::object& distances, double step,
                            double max_depth) {
@@ -112,6 +123,16 @@ Array<float> optical_depth(const LayerList& layers, const py::object& origins,
   const py::gil_scoped_release release;
   volume::optical_depth(given.layers(), given.rays(), view(ends), step,
                         static_cast<float>(max_depth), out);
+  return found;
+}
+
+Array<float> opaque_distance(const LayerList& layers, const py::object& origins,
+                             const py::object& directions, double step, float depth) {
+  const RayArrays given(layers, origins, directions);
+  auto found = new_array<float>({given.size()});
+  const std::span<float> out = writable(found);
+  const py::gil_scoped_release release;
+  volume::opaque_distance(given.layers(), given.rays(), step, depth, out);
   return found;
 }
 
@@ -180,8 +201,12 @@ void init_march(Module module) {
              "lapse"_a, "radiance"_a, "coldest"_a, "kelvin_step"_a, "absorption"_a, "step"_a = 4.0,
              "flames"_a = nullptr, "hot"_a = std::vector<std::shared_ptr<HotGasArrays>>{},
              "gas"_a = 0.0);
+  module.def("flame_distance", &flame_distance, "flames"_a, "origins"_a, "directions"_a,
+             "farthest"_a);
   module.def("optical_depth", &optical_depth, "layers"_a, "origins"_a, "directions"_a,
              "distances"_a, "step"_a = 2.0, "max_depth"_a = 20.0);
+  module.def("opaque_distance", &opaque_distance, "layers"_a, "origins"_a, "directions"_a, "step"_a,
+             "depth"_a);
 }
 
 } // namespace firetwin::bindings

@@ -26,6 +26,13 @@ target_compile_definitions(library::openvdb INTERFACE OPENVDB_STATICLIB)
 target_compile_definitions(library::openimageio INTERFACE OIIO_STATIC_DEFINE)
 # In C++20, oneTBB's concepts reject arguments that OpenVDB 10 passes.
 add_compile_definitions(__TBB_USE_CONSTRAINTS=0)
-# Without -z nodynamic-undefined-weak Blender's allocator would replace TBB's, which is not linked.
-add_link_options(-Wl,--exclude-libs,ALL -Wl,--version-script,${CMAKE_SOURCE_DIR}/cpp/portable/exports.map
-  -Wl,-z,nodynamic-undefined-weak -Wl,--strip-all)
+add_link_options(-Wl,--exclude-libs,ALL -Wl,--version-script,${CMAKE_SOURCE_DIR}/cpp/portable/exports.map -Wl,--strip-all)
+if(WIN32)
+  # TBB is compiled with a stack protector.
+  set_property(TARGET TBB::tbb APPEND PROPERTY INTERFACE_LINK_LIBRARIES ssp)
+  # Windows' loader does not choose between versions of a function (base/clones.hpp).
+  add_compile_options(-march=x86-64-v3)
+else()
+  # Without this Blender's allocator would replace TBB's, which is not linked.
+  add_link_options(-Wl,-z,nodynamic-undefined-weak)
+endif()

@@ -1,4 +1,4 @@
-# The static libraries that vcpkg builds from vcpkg.json, on Windows and macOS.
+# The static libraries that vcpkg builds from vcpkg.json, on macOS.
 find_package(TBB CONFIG REQUIRED)
 find_package(OpenVDB CONFIG REQUIRED)
 find_package(OpenImageIO CONFIG REQUIRED)

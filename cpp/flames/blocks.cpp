@@ -3,6 +3,7 @@
 #include "base/clones.hpp"
 #include "base/smoothstep.hpp"
 #include "flames/soot.hpp"
+#include "flames/wrinkles.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -20,6 +21,10 @@ constexpr float most_cells = 1.0e6F; // height that an index can hold; nothing b
 constexpr std::int64_t cube = 8; // cells along a side, which are skipped at once if nothing burns
 constexpr float finest_level = 0.75F; // of a pixel: cells up to this size are not coarsened
 constexpr std::array<float, 2> level_blend{0.4F, 0.6F};
+constexpr std::array<float, 2> wrinkled{0.9F,
+                                        0.3F}; // of a cell: pixels that show no eddies, and all
+constexpr float eddy_speed = 1.2F; // of eddies below a cell, sqrt(g L): mean rise of hot gas
+constexpr float calm_foot = 0.08F; // L, height under which eddies are weaker
 constexpr float thickness = 10.0F; // extinction of soot times L at which levels are filtered
 
 /// Wraps a number of cells, at most a few periods away.
@@ -127,6 +132,7 @@ BlockLevels::BlockLevels(float pixel, float cell) {
   number = std::min(static_cast<int>(at), FlameBlock::levels);
   part = at < last ? smoothstep(level_blend[0], level_blend[1], at - static_cast<float>(number))
                    : 0.0F;
+  detail = 1.0F - smoothstep(wrinkled[1], wrinkled[0], pixel / cell);
 }
 
 FlameBlock::FlameBlock(std::span<const std::uint8_t> codes, const Shape& shape,
@@ -265,10 +271,10 @@ void FlameBlock::rise_at(const Lanes& up, Lanes& cells) const {
 }
 
 FIRETWIN_CLONES("avx2")
-void FlameBlock::codes(const BlockPlaces& places, float time, Lanes& out) const {
+void FlameBlock::codes(const BlockPlaces& places, float time, float detail, Lanes& out) const {
   const float inverse = 1.0F / scale_.cell;
-  const Lanes x = places.across * inverse - 0.5F, y = places.along * inverse - 0.5F,
-              z = places.up * inverse - 0.5F;
+  Lanes x = places.across * inverse - 0.5F, y = places.along * inverse - 0.5F,
+        z = places.up * inverse - 0.5F;
   out = Lanes{};
   const Parts parts = parts_at(time);
   if (!burns(parts[0].frame, x, y, z)) {
@@ -276,6 +282,14 @@ void FlameBlock::codes(const BlockPlaces& places, float time, Lanes& out) const 
   }
   Lanes risen;
   rise_at(z, risen);
+  if (detail > 0.0F) {
+    const float carried = eddy_speed * time * inverse;
+    Lanes strength = places.up * (detail / calm_foot);
+    strength = strength > detail ? Lanes{} + detail : strength;
+    z -= carried;
+    wrinkle(x, y, z, strength);
+    z += carried;
+  }
   for (const Part& part : parts) {
     add_codes(part, x, y, z - risen * part.risen, out);
   }

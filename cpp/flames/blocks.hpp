@@ -63,7 +63,8 @@ public:
 
   /// Computes the codes, 0 to 1, at eight places and a time since a loop began: up to `fading`
   /// after the period.
-  void codes(const BlockPlaces& places, float time, Lanes& out) const;
+  /// @param detail strength, 0 to 1, of eddies that are smaller than cells
+  void codes(const BlockPlaces& places, float time, float detail, Lanes& out) const;
   /// Computes a coarser level, from 1 on.
   void coarse(int level, const BlockPlaces& places, float time, CoarseFlame& out) const;
 
@@ -108,6 +109,7 @@ private:
 struct BlockLevels {
   int number;
   float part;
+  float detail; ///< strength of eddies that are smaller than cells, 0 to 1
 
   /// @param pixel, cell size, m
   BlockLevels(float pixel, float cell);

@@ -26,7 +26,9 @@ constexpr float row_length = 1.4F;   // scale of their eddies over their height
 constexpr double burning_rows = 0.5; // share of the segments of rows that burn
 constexpr float row_warp = 0.45F;    // displacement of rows, in lengths
 constexpr std::array<float, 2> warp_waves{0.7F, 1.7F}; // waves in a length
-constexpr float crown_blend = 0.02F;                   // code over which a crown counts
+constexpr std::array<std::array<float, 2>, 2> uneven{{{1.7F, 0.12F}, {4.3F, 0.05F}}};
+///< waves in a length and their height, in lengths, of a front's edge (by eye)
+constexpr float crown_blend = 0.02F; // code over which a crown counts
 constexpr int directions = 4;
 constexpr float diagonal = std::numbers::sqrt2_v<float> / 2.0F;
 constexpr std::array<std::array<float, 2>, directions> axes{
@@ -85,6 +87,15 @@ float wave(float x, float y, std::int64_t seed) {
   return gradient_noise(rise, y - j, x - i);
 }
 
+/// Bends a front's edge, which is uneven as fuel is.
+void bend_edge(const Lanes& along, std::uint32_t seed, Lanes& across) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    for (const auto& [waves, height] : uneven) {
+      across[lane] += height * wave(waves * along[lane], 0.5F, seed);
+    }
+  }
+}
+
 /// Adds a block's gas with a weight. Codes add as fourth powers, with weights to the power of 1.5:
 /// a mean of two patterns has half of the gas of each, which is dark, and their sum is too rich.
 void add_block(const FlameBlock& block, const BlockPlaces& places, float time,
@@ -95,7 +106,7 @@ void add_block(const FlameBlock& block, const BlockPlaces& places, float time,
     }
     if (number == 0) {
       Lanes code;
-      block.codes(places, time, code);
+      block.codes(places, time, levels.detail, code);
       Lanes kept;
       roots(weight, kept);
       const Lanes square = code * code;
@@ -503,10 +514,12 @@ void FlameField::add_segment(const Segment& segment, GasLanes& out) const {
   // Neighbours are far apart in time.
   const double phase = spread(unit(lattice_hash(segment.octave, salt, 1)), segment.number);
   const Moment now = moment(block, time_, length, phase);
+  Lanes across = line.across;
+  bend_edge(segment.along, hash, across);
   each_loop(block, now, [&](std::int64_t loop, float time, float share) {
     const auto offset = static_cast<float>(spread(first, loop)) * block.along();
     const bool mirrored = ((loop + static_cast<std::int64_t>(hash >> 6U)) & 1) != 0;
-    const BlockPlaces places{block.scale().front - line.across,
+    const BlockPlaces places{block.scale().front - across,
                              offset + (mirrored ? -segment.along : segment.along), line.height};
     add_block(block, places, time, line.levels, segment.weight * share, out);
   });

@@ -11,12 +11,14 @@ namespace {
 
 constexpr float least_step = 0.015F; // m
 constexpr float fine_step =
-    0.024F; // of the flame length; 0.028 shows ribs where it varies (by eye)
+    0.018F; // of the flame length; 0.024 shows ribs where it varies (by eye)
 constexpr float step_pixels = 0.7F;
 constexpr float most_step = 0.2F;                   // of the flame length
 constexpr std::array<float, 2> at_lens{0.4F, 2.0F}; // m, distances up to which flames are left out
-constexpr float thin_flame = 1.0e-4F;               // 1/m, extinction that is left out
-constexpr float thin_gas = 1.0e-3F;                 // code that is left out
+constexpr std::array<float, 2> deepest{10.0F,
+                                       4.0F}; // m, and cells, below the map's ground where rays end
+constexpr float thin_flame = 1.0e-4F;         // 1/m, extinction that is left out
+constexpr float thin_gas = 1.0e-3F;           // code that is left out
 constexpr float typical_path = 0.06F; // way through the sootiest gas of a flame, in its lengths
 constexpr float whole = 0.999F;       // share from which flames are not thinned out
 
@@ -158,10 +160,11 @@ FlameRay::FlameRay(const FlameVolume& flames, const Vector& origin, const Vector
   }
 }
 
-bool FlameRay::next(float limit, FlameSlab& slab) {
+bool FlameRay::next(float begin, float end, FlameSlab& slab) {
   constexpr float past = 1.0e-3F; // m
-  limit = std::min(limit, end_);
-  while (at_ < limit) {
+  end = std::min(end, end_);
+  begin = std::min(begin, end);
+  while (at_ < begin) {
     const float x = start_[0] + direction_[0] * at_, y = start_[1] + direction_[1] * at_,
                 z = start_[2] + direction_[2] * at_;
     FlameTiles::Tile tile;
@@ -169,7 +172,7 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
       at_ = end_; // the largest square contains all others
       return false;
     }
-    float leave = limit;
+    float leave = end;
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const float speed = direction_[axis], here = axis == 0 ? x : y;
       if (std::abs(speed) > 1.0e-9F) {
@@ -182,13 +185,19 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
       at_ = enters ? std::min(leave, at_ + (tile.top - z) / direction_[2] + past) : leave;
       continue;
     }
-    const float height = std::clamp(z - flames_.tiles().ground_at(x, y), 0.0F, 1.0e6F);
+    const float above = z - flames_.tiles().ground_at(x, y);
+    const float cell = (tile.bounds[1] - tile.bounds[0]) / static_cast<float>(FlameTiles::side);
+    if (above < -(deepest[0] + deepest[1] * cell)) {
+      at_ = end_;
+      return false;
+    }
+    const float height = std::clamp(above, 0.0F, 1.0e6F);
     const float free = flames_.field().free_distance({x, y, z}, height, direction_);
     if (free > 0.0F) {
       at_ = std::min(at_ + std::max(free, past), leave);
       continue;
     }
-    fill(at_, step_at(tile, height, limit), slab);
+    fill(at_, step_at(tile, height, end), slab);
     at_ = slab.to;
     if (slab.transmittance < 1.0F || slab.infrared_transmittance < 1.0F) {
       return true;
@@ -211,7 +220,7 @@ float FlameRay::step_at(const FlameTiles::Tile& tile, float height, float limit)
 void FlameRay::fill(float from, float step, FlameSlab& slab) {
   const FlameLight& light = flames_.light();
   const FlameView& view = flames_.view();
-  slab = {from, from + step * static_cast<float>(lane_count), {}, 1.0F, 0.0F, 1.0F, 0.0F};
+  slab = {from, from + step * static_cast<float>(lane_count), {}, 1.0F, 0.0F, 1.0F, 0.0F, {}};
   Lanes away;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     away[lane] = from + step * (static_cast<float>(lane) + 1.0F);
@@ -230,6 +239,7 @@ void FlameRay::fill(float from, float step, FlameSlab& slab) {
       const FlameStep found =
           flames_.step(lane > 0 ? samples.codes(lane - 1) : before_, samples, lane);
       const float part = view.share(away[lane] - 0.5F * step);
+      slab.red[lane] = slab.radiance[0];
       if (found.extinction * part <= thin_flame) {
         continue;
       }
@@ -240,6 +250,7 @@ void FlameRay::fill(float from, float step, FlameSlab& slab) {
         slab.radiance[channel] += share * found.radiance[channel];
       }
       slab.transmittance *= kept;
+      slab.red[lane] = slab.radiance[0];
       if (band_ != nullptr) {
         const float passed = std::exp(-found.infrared * part * step);
         const double kelvin =

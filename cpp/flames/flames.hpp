@@ -73,6 +73,9 @@ private:
   FlameField field_;
 };
 
+/// Transmittance at which a ray ends in flames.
+inline constexpr float opaque_flames = 0.01F;
+
 /// Flames within eight steps of a ray.
 struct FlameSlab {
   float from, to;                ///< m from the ray's origin
@@ -80,6 +83,7 @@ struct FlameSlab {
   float transmittance;
   float infrared, infrared_transmittance; ///< if a table of radiance is given
   float share;                            ///< of the steps that are in flames
+  std::array<float, lane_count> red;      ///< radiance of the steps up to each
 };
 
 /// Black-body radiance in a band at evenly spaced temperatures.
@@ -95,9 +99,9 @@ public:
   FlameRay(const FlameVolume& flames, const Vector& origin, const Vector& direction, float end,
            const BandRadiance* band = nullptr);
 
-  /// Finds the next slab with flames that begins before `limit` (m), and ends no later. False if
-  /// there is none.
-  bool next(float limit, FlameSlab& slab);
+  /// Finds the next slab with flames that begins before `begin` (m), and ends at `end` at the
+  /// latest. False if there is none.
+  bool next(float begin, float end, FlameSlab& slab);
 
 private:
   float step_at(const FlameTiles::Tile& tile, float height, float limit) const;

@@ -14,7 +14,7 @@ namespace firetwin::flames {
 constexpr float core_heat = 0.75F; ///< heat at which the luminance is 1
 /// Decades of luminance in a unit of heat, below and above the core: hotter parts of a flame are
 /// all but white in a picture, and would have no structure.
-constexpr float dim_decades = 3.4F, bright_decades = 1.6F;
+constexpr float dim_decades = 3.4F, bright_decades = 2.2F;
 
 /// Largest mixture fraction that is stored, over the stoichiometric one.
 constexpr float richest = 4.0F;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <system_error>
 
 /// File operations that depend on the operating system: system_posix.cpp, system_windows.cpp.
 namespace firetwin::io::system {
@@ -24,6 +25,9 @@ constexpr std::size_t max_bytes_per_read = 1U << 30;
 std::ptrdiff_t read(int descriptor, std::uint64_t offset, std::span<char> out);
 
 void close(int descriptor);
+
+/// Absolute path of an existing file or folder, without links. Sets `code` on failure.
+std::filesystem::path canonical(const std::filesystem::path& path, std::error_code& code);
 
 /// Flushes a file to the disk. Returns false with errno set on failure.
 bool sync(const std::filesystem::path& path);

@@ -36,6 +36,10 @@ void close(int descriptor) {
   ::close(descriptor);
 }
 
+std::filesystem::path canonical(const std::filesystem::path& path, std::error_code& code) {
+  return std::filesystem::canonical(path, code);
+}
+
 bool sync(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor < 0) {

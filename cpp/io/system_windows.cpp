@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <string>
+#include <string_view>
 
 namespace firetwin::io::system {
 
@@ -45,6 +47,32 @@ std::ptrdiff_t read(int descriptor, std::uint64_t offset, std::span<char> out) {
 
 void close(int descriptor) {
   ::_close(descriptor);
+}
+
+// GCC's std::filesystem::canonical() fails on network shares, and keeps links.
+std::filesystem::path canonical(const std::filesystem::path& path, std::error_code& code) {
+  const HANDLE file =
+      ::CreateFileW(path.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+                    nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
+  if (file == INVALID_HANDLE_VALUE) {
+    code = std::make_error_code(std::errc::no_such_file_or_directory);
+    return {};
+  }
+  std::wstring name(32768, L'\0'); // the longest path of Windows
+  const auto size = static_cast<DWORD>(name.size());
+  name.resize(::GetFinalPathNameByHandleW(file, name.data(), size, VOLUME_NAME_DOS));
+  ::CloseHandle(file);
+  constexpr std::wstring_view share = L"\\\\?\\UNC\\", local = L"\\\\?\\";
+  if (name.empty()) { // some third-party file systems
+    return std::filesystem::absolute(path, code);
+  }
+  if (name.starts_with(share)) {
+    name.replace(0, share.size(), L"\\\\");
+  } else if (name.starts_with(local)) {
+    name.erase(0, local.size());
+  }
+  code.clear();
+  return name;
 }
 
 bool sync(const std::filesystem::path& path) {

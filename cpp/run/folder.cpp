@@ -1,6 +1,7 @@
 #include "run/folder.hpp"
 
 #include "io/name.hpp"
+#include "io/system.hpp"
 
 #include <algorithm>
 #include <array>
@@ -57,7 +58,7 @@ std::span<const std::string_view> field_names() {
 
 Folder::Folder(const fs::path& path) {
   std::error_code code;
-  path_ = fs::canonical(path, code);
+  path_ = io::system::canonical(path, code);
   if (code) {
     io::fail(path, "there is no such run folder; check the path");
   }
@@ -94,7 +95,7 @@ bool Folder::has(std::string_view field) const {
 
 fs::path Folder::inside(const fs::path& path) const {
   std::error_code code;
-  const fs::path real = fs::canonical(path, code);
+  const fs::path real = io::system::canonical(path, code);
   if (code) {
     io::fail(path, "the file is missing; a run folder must hold it");
   }

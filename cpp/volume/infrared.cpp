@@ -64,19 +64,6 @@ float excess_at(std::span<const HotGas> hot, const Vector& place) {
   return 0.0F;
 }
 
-/// Returns the layer whose next segment is nearest; null if no segment is left.
-LayerCrossing* nearest(std::vector<LayerCrossing>& crossings) {
-  LayerCrossing* found = nullptr;
-  for (LayerCrossing& each : crossings) {
-    const bool left = each.current < each.segments.size();
-    if (left && (found == nullptr ||
-                 each.segments[each.current].from < found->segments[found->current].from)) {
-      found = &each;
-    }
-  }
-  return found;
-}
-
 /// Smoke and gases that a ray meets.
 struct InfraredMedium {
   const AirTemperature& air;
@@ -122,13 +109,13 @@ std::array<float, 2> along(RayTraversal& traversal, FlameRay* flames, const Vect
   std::array<float, 2> found{0.0F, 1.0F};
   const auto burn = [&](float until) {
     FlameSlab slab;
-    while (flames != nullptr && flames->next(until, slab)) {
+    while (flames != nullptr && flames->next(until, end, slab)) {
       found[0] += found[1] * slab.infrared;
       found[1] *= slab.infrared_transmittance;
     }
   };
   // Layers overlap where they blend: segments are processed in order of distance.
-  while (LayerCrossing* crossing = nearest(traversal.crossings())) {
+  while (LayerCrossing* crossing = traversal.nearest()) {
     const Segment& segment = crossing->segments[crossing->current++];
     const double middle = traversal.entry() + 0.5 * static_cast<double>(segment.from + segment.to);
     burn(static_cast<float>(middle));

@@ -22,8 +22,6 @@ using flames::FlameRay;
 using flames::FlameSlab;
 using flames::FlameVolume;
 
-/// Transmittance at which a ray ends in flames; the remaining radiance is extrapolated.
-constexpr float opaque_flames = 0.01F;
 constexpr float no_limit = std::numeric_limits<float>::max();
 constexpr float outline_pixels = 1.5F; // width of an outline, half as many voxels as it is painted
 constexpr float max_sharpness = 4.0F;
@@ -276,7 +274,8 @@ private:
   float find_active_layers(float t);
   float prepare(float t, float until);
   void step(float t, float until, const Haze& haze);
-  void pass(float t, float until, const Haze& haze);
+  float pass(float t, float until, const Haze& haze);
+  const FlameSlab* flames_before(float until);
   void add(const FlameSlab& slab, const HazeState& haze);
   bool is_opaque() const {
     return static_cast<double>(state_.transmittance) < settings_.min_transmittance;
@@ -286,7 +285,8 @@ private:
   RayTraversal traversal_;
   const FlameVolume* flames_; ///< may be null
   std::optional<FlameRay> burning_;
-  double entry_ = 0.0; ///< m, where distances of steps count from
+  std::optional<FlameSlab> slab_; ///< the next flames, in a later block
+  double entry_ = 0.0;            ///< m, where distances of steps count from
   Taps taps_;
   const Illumination& light_;
   MarchSettings settings_;
@@ -366,30 +366,49 @@ void Marcher::add(const FlameSlab& slab, const HazeState& haze) {
   state_.radiance += seen * state_.transmittance;
   state_.flames += seen * state_.transmittance;
   state_.transmittance *= slab.transmittance;
-  if (state_.transmittance < opaque_flames) {
+  if (state_.transmittance < flames::opaque_flames) { // the rest is extrapolated
     state_.end();
   }
 }
 
-/// Marches smoke and flames between t and `until`. Each slab of flames is at its middle, and the
-/// part of it that burns has no smoke: soot there glows, and is in the extinction of the flames.
-void Marcher::pass(float t, float until, const Haze& haze) {
-  FlameSlab slab;
-  const auto end = static_cast<float>(entry_ + static_cast<double>(until));
-  while (burning_ && !is_opaque() && burning_->next(end, slab)) {
-    const double middle = 0.5 * static_cast<double>(slab.from + slab.to);
+/// Returns the next slab of flames, which begins before `until` and does not reach beyond the next
+/// tap; null if there is none.
+const FlameSlab* Marcher::flames_before(float until) {
+  const auto distance = [this](float t) {
+    return static_cast<float>(entry_ + static_cast<double>(t));
+  };
+  if (!slab_ && burning_) {
+    FlameSlab found;
+    if (burning_->next(distance(until), distance(ends_[next_]), found)) {
+      slab_ = found;
+    }
+  }
+  return slab_ ? &*slab_ : nullptr;
+}
+
+/// Marches smoke and flames between t and `until`, or beyond it to the end of the last flames;
+/// returns where it ends. Each slab of flames is at its middle, and the part of it that burns has
+/// no smoke: soot there glows, and is in the extinction of the flames.
+float Marcher::pass(float t, float until, const Haze& haze) {
+  while (const FlameSlab* slab = is_opaque() ? nullptr : flames_before(until)) {
+    const double middle = 0.5 * static_cast<double>(slab->from + slab->to);
     const auto here = static_cast<float>(middle - entry_);
-    const float half = 0.5F * slab.share * (slab.to - slab.from);
-    const float before = std::clamp(here - half, t, until);
+    const float half = 0.5F * slab->share * (slab->to - slab->from);
+    if (here - half >= until && until < ends_[next_]) {
+      break;
+    }
+    const float before = std::clamp(here - half, t, std::max(t, until));
     if (active_.count > 0 && before > t) {
       step(t, before, haze);
     }
-    add(slab, haze.at(middle));
-    t = std::clamp(here + half, before, until);
+    add(*slab, haze.at(middle));
+    slab_.reset();
+    t = std::clamp(here + half, before, std::max(before, ends_[next_]));
   }
   if (active_.count > 0 && until > t) {
     step(t, until, haze);
   }
+  return std::max(t, until);
 }
 
 void Marcher::record(float* out) {
@@ -414,6 +433,7 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
   bool smoky = traversal_.follow(origin, direction, end);
   entry_ = smoky ? traversal_.entry() : 0.0;
   burning_.reset();
+  slab_.reset();
   if (flames_ != nullptr) {
     burning_.emplace(*flames_, origin, direction, static_cast<float>(end));
   }
@@ -435,13 +455,10 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
         break; // no smoke left
       }
       const float until = std::min(to, ends_[next_]);
-      if (until > t) {
-        pass(t, until, haze);
-      }
+      t = until > t ? pass(t, until, haze) : t;
       if (is_opaque()) {
         state_.end();
       }
-      t = std::max(t, until);
       while (next_ < taps_.count && ends_[next_] <= t) {
         record(out);
       }

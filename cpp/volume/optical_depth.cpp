@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace firetwin::volume {
 
@@ -33,6 +34,30 @@ void optical_depth(Layers layers, const Rays& rays, std::span<const float> dista
           }
         }
         out[ray] = sum;
+      });
+}
+
+void opaque_distance(Layers layers, const Rays& rays, double step, float depth,
+                     std::span<float> out) {
+  check(rays, {}, 0);
+  constexpr float endless = std::numeric_limits<float>::infinity();
+  for_rays(
+      rays.size(), [layers] { return RayTraversal(layers); },
+      [&](RayTraversal& traversal, std::size_t ray) {
+        out[ray] = endless;
+        float sum = 0.0F, reached = 0.0F;
+        if (!traversal.follow(rays.origin(ray), rays.direction(ray), endless)) {
+          return;
+        }
+        while (LayerCrossing* crossing = traversal.nearest()) {
+          const Segment& segment = crossing->segments[crossing->current++];
+          sum += depth_of(*crossing, segment, step);
+          reached = std::max(reached, segment.to);
+          if (sum >= depth) {
+            out[ray] = static_cast<float>(traversal.entry()) + reached;
+            return;
+          }
+        }
       });
 }
 

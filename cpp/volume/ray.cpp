@@ -112,6 +112,18 @@ void check(const Rays& rays, std::span<const float> distances, std::size_t taps)
   }
 }
 
+LayerCrossing* RayTraversal::nearest() {
+  LayerCrossing* first = nullptr;
+  for (LayerCrossing& each : crossings_) {
+    const bool left = each.current < each.segments.size();
+    if (left && (first == nullptr ||
+                 each.segments[each.current].from < first->segments[first->current].from)) {
+      first = &each;
+    }
+  }
+  return first;
+}
+
 const Segment* LayerCrossing::advance_to(float distance) {
   constexpr float near = 1.0e-3F; // m; tolerance for rounded ends
   while (current < segments.size() && segments[current].to <= distance + near) {

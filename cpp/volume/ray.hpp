@@ -62,6 +62,8 @@ public:
   /// Distance from the origin to the point where segments count from, m.
   double entry() const { return entry_; }
   std::vector<LayerCrossing>& crossings() { return crossings_; }
+  /// Layer whose next segment is nearest; null if no segment is left.
+  LayerCrossing* nearest();
 
 private:
   Layers layers_;

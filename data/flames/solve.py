@@ -56,8 +56,9 @@ def compile_solver(folder: Path, optimise: str = "-O3") -> Path:
     if not compiler:
         raise SystemExit("solve: no C++ compiler (g++ or clang++) is installed")
     program = folder / "solver"
-    sources = sorted(str(path) for path in SOURCES.glob("*.cpp"))
-    subprocess.run([compiler, optimise, *FLAGS, *sources, "-o", str(program), "-lfftw3f"], check=True)
+    unit = "".join(f'#include "{path}"\n' for path in sorted(SOURCES.glob("*.cpp")))  # headers are read once
+    words = [compiler, optimise, *FLAGS, "-x", "c++", "-", "-o", str(program), "-lfftw3f"]
+    subprocess.run(words, input=unit, text=True, check=True)
     return program
 
 

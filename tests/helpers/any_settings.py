@@ -49,7 +49,7 @@ def any_value(part):
         str: st.sampled_from(list(key.names()) or [""]),
         FrameList: st.just(FrameList()),
         Path: FOLDERS.map(lambda folder: Path("/scenes") / folder),
-        datetime: st.datetimes(timezones=st.just(UTC)),
+        datetime: st.datetimes(datetime(1001, 1, 1), datetime(9997, 1, 1), timezones=st.just(UTC)),
         int: st.integers(-(2**63) if key.at_least is None else key.at_least, key.at_most or 2**63 - 1),
         float: st.floats(
             key.above if key.at_least is None else key.at_least,

@@ -2,6 +2,7 @@
 
 import os
 import re
+import stat
 from pathlib import Path
 
 from firetwin.errors import Error, TryAgainError, UnavailableError, full_disk_error, input_error
@@ -16,6 +17,16 @@ def importable(monkeypatch):
 def arenas(progress, tell):
     """Return the number of glibc's arenas."""
     return os.environ["MALLOC_ARENA_MAX"]
+
+
+def kind_of_stdin(progress, tell):
+    """Return the kind of file that libraries meet as stdin."""
+    return stat.S_IFMT(os.fstat(0).st_mode)
+
+
+def number(progress, tell):
+    """Return the number of the process."""
+    return os.getpid()
 
 
 def report(progress, tell):

@@ -1,5 +1,6 @@
 """A server of tiles in Web Mercator whose colours say which tile each is."""
 
+import functools
 import io
 import re
 
@@ -19,10 +20,11 @@ def colour(level, column, row):
 def png(pixels):
     """A picture (h, w, 3 or 4) as PNG."""
     stream = io.BytesIO()
-    Image.fromarray(np.asarray(pixels, np.uint8)).save(stream, "PNG")
+    Image.fromarray(np.asarray(pixels, np.uint8)).save(stream, "PNG", compress_level=1)
     return stream.getvalue()
 
 
+@functools.cache
 def tile(level, column, row, side=256):
     """A tile of its colour."""
     return png(np.broadcast_to(np.array(colour(level, column, row), np.uint8), (side, side, 3)))

@@ -318,7 +318,8 @@ def _deliver(_: Patch) -> None:
 
 
 def _edit(patch: Patch) -> None:
-    from firetwin.edit import cut, edl, fcp_xml, markers, media, otio
+    from firetwin.cuts import cut, edl, fcp_xml, otio
+    from firetwin.edit import markers, media
 
     _scene(patch)
     patch.setattr(media, "films", lambda *_: [])
@@ -379,7 +380,9 @@ DOORS = {
     "stations exercise": Door("stations exercise run --out out/x.gpkg", ("out/x.gpkg",), _run),
     "stations import": Door("stations import stations.csv --out out/x.gpkg", ("out/x.gpkg",), _stations),
     "story": Door(
-        "story run --out out --storyboard", ("out/story.srt", "out/story.vtt", "out/story.json"), _run
+        "story run --out out --storyboard --for training",
+        ("out/story.srt", "out/story.vtt", "out/story.json", "out/instructor.html"),
+        _run,
     ),
     "tiles make": Door("tiles make scene.toml --out out", ("out/terrain/0.glb", "out/tileset.json"), _tiles),
     "track": Door("track scene.toml --out out/drone.gpx", ("out/drone.gpx",), _scene),

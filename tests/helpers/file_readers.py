@@ -41,7 +41,7 @@ def _read_netcdf(path):
 
 
 def _settings(path, **terrain):
-    return Settings(path=path, terrain=TerrainSettings(**terrain))
+    return Settings(path=path.with_name("s.toml"), terrain=TerrainSettings(**terrain))
 
 
 def _photo(path):
@@ -54,7 +54,7 @@ def _geotiff(path):
 
 
 def _globe(path):
-    globe_picture.check(_settings(path, globe=path.with_name("a.png")))
+    globe_picture.check(_settings(path, globe=path.with_name("a.png"), globe_credit="Somebody"))
 
 
 READERS = {

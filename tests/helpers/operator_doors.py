@@ -1,5 +1,7 @@
 """Operators of Blender that write files for their user: a cheap press of each (see `doors`)."""
 
+import contextlib
+import os
 from pathlib import Path
 
 import bpy
@@ -66,6 +68,10 @@ NO_DOORS = {
     "sample": "a folder that does not exist or is empty",
     "solve": "the cache, by hashes",
     "smoke_volumes": "the cache, by hashes",
+    "story_edit": "the storyboard that its user edits",
+    "story_make": "a scene file and the files of `story`",
+    "story_move": "the storyboard that its user edits",
+    "story_render": "the files of `story`",
     "tiles_preview": "the cache, by hashes",
 }
 """Operators that write other files, and which."""
@@ -73,14 +79,25 @@ SILENT = [
     *("allocate", "camera_add", "camera_aim", "camera_copy", "camera_key", "camera_lens", "camera_path"),
     *("camera_remove", "copy", "fly", "go", "inspect", "jump", "live", "open", "output_preset", "quality"),
     *("queue", "queue_esc", "regrade", "remove", "reset", "run_add", "run_remove", "show_live"),
-    *("station_map", "station_pick", "stop", "tiles_clear", "view", "viewport_measure", "vr_landmark"),
+    *(
+        "station_map",
+        "station_pick",
+        "stop",
+        "story_open",
+        "tiles_clear",
+        "view",
+        "viewport_measure",
+        "vr_landmark",
+    ),
     *("vr_landmarks", "vr_play", "vr_session", "vr_start_at", "vr_teleport", "vr_time", "vr_turn", "window"),
 ]
 """Operators that write no files."""
 
 
 def print_table():
-    """Print a line for each file of each operator."""
+    """Print a line for each file of each operator, without the messages that Blender prints."""
     firetwin.register()
-    doors.print_table(DOORS)
+    with os.fdopen(os.dup(1), "w") as out, contextlib.redirect_stdout(out):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        doors.print_table(DOORS)
     firetwin.unregister()

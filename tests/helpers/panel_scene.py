@@ -5,6 +5,7 @@ import shutil
 import bpy
 import firetwin
 import pytest
+from few_cameras import try_few
 from firetwin.blender import compat
 from firetwin.errors import Error
 from firetwin.shot.settings import scene_file as file
@@ -50,6 +51,7 @@ def panel_blend(factory, run_folder, tmp_path_factory):
     def make(folder):
         with pytest.MonkeyPatch.context() as patch:
             simplify_looks(patch)
+            try_few(patch)
             build(run_folder, folder)
 
     return made_once(tmp_path_factory, "panel_scene", make) / "scene.blend"

@@ -5,8 +5,9 @@ import shutil
 from dataclasses import replace
 
 import pytest
+from decoding import decode_here, decoded_here
 from firetwin.blender import nodes
-from firetwin.jobs.tiles import decode, make, selection
+from firetwin.jobs.tiles import make, selection
 from firetwin.scene.terrain import material
 from firetwin.shot.shot import Shot
 from firetwin.shot.terrain import tile_heights
@@ -29,21 +30,6 @@ def plain_tiles(monkeypatch):
         return made
 
     monkeypatch.setattr(material, "build", build)
-
-
-def decode_here(patch):
-    """Decode within this process, for as long as the patch lasts."""
-
-    def here(contents, progress):
-        return decode.in_process(contents, progress, print)
-
-    patch.setattr(decode, "run", here)
-
-
-@pytest.fixture
-def decoded_here(monkeypatch):
-    """Decode within this process."""
-    decode_here(monkeypatch)
 
 
 @pytest.fixture(scope="session")

@@ -15,6 +15,7 @@ def context(scene: bpy.types.Scene, width: int = 300) -> SimpleNamespace:
     """Make the context of a panel in the sidebar of a 3D view, with this width."""
     return SimpleNamespace(
         scene=scene,
+        window_manager=bpy.context.window_manager,
         view_layer=scene.view_layers[0],
         space_data=space(),
         preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),

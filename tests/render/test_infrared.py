@@ -6,6 +6,8 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+import rendered
+import whole_run
 from firetwin.blender import nodes
 from firetwin.render import engine
 from firetwin.run import opening as runs
@@ -15,6 +17,23 @@ from firetwin.shot.fire import air_temperature as airs
 from firetwin.shot.sections import Thermal
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor, volume
+
+TWO_CELLS = """\
+run = "run"
+time = { start = 2020-07-01T20:08:33Z, frames = 1 }
+forest = { trees = false, grass = false }
+smoke = { enabled = false }
+terrain = { near_radius = 0.0, apron = 2000.0 }
+[render]
+resolution = [32, 24]
+samples = 1
+denoise = false
+passes = ["thermal"]
+[[cameras]]
+name = "drone"
+over_ridges = false
+keys = [{ latitude = 38.899, longitude = -120.6, height = 300.0, target = "fire" }]
+"""
 
 
 @pytest.fixture
@@ -172,3 +191,15 @@ def test_the_air_changes_with_the_time_of_the_shot(
         np.mean(shot.run.elevation[11:13, 11:13])
     )  # of the model's ground; the plates lie at sea level
     assert kelvin[0] == pytest.approx(290.0 + airs.LAPSE * height, abs=0.5)
+
+
+def test_the_fire_of_a_run_of_two_by_two_cells_is_hot(tmp_path):
+    """Its ground has no cell without an edge, and all of it burns within one time."""
+    whole_run.write(
+        tmp_path / "run", cells=2, speed=0.1, lasts=300.0, times=tuple(60.0 * k for k in range(16))
+    )
+    _, out = rendered.everything(tmp_path, TWO_CELLS)
+    (path,) = out.rglob("*.exr")
+    kelvin = np.asarray(sensor.read_image(path))[..., 0]
+    assert np.median(kelvin) == pytest.approx(310.0, abs=20.0)
+    assert 400.0 < kelvin.max() < 1500.0

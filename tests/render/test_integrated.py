@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from firetwin.blender import owned
 from firetwin.imaging import cryptomatte
+from firetwin.jobs import first_picture
 from firetwin.passes import masks as masks_pass
 from firetwin.render import engine, integrated, layers, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
-from firetwin.scene import build, infrared
+from firetwin.scene import build, cell_distances, infrared
 from firetwin.scene.smoke import shadow
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
@@ -34,9 +35,9 @@ def cache(tmp_path_factory):
 
 @pytest.fixture
 def film(near_settings, run, few_cells, cache, tmp_path):
-    """Render passes of a frame; returns its EXRs by pass, and the picture in display colours."""
+    """Render passes of a frame, after a coarse picture in a folder if wanted; returns its EXRs by pass."""
 
-    def make(*names, draw="integrated", grain=0):
+    def make(*names, draw="integrated", grain=0, coarse=None):
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         stage = owned.adopt(bpy.context.scene)
         settings = replace(
@@ -58,6 +59,8 @@ def film(near_settings, run, few_cells, cache, tmp_path):
         layers.build(settings, stage)
         engine.apply(settings, stage.scene)
         wanted = [Picture("drone", 1, name) for name in names]
+        if coarse:
+            assert first_picture.write(shot, stage, 1, coarse) == coarse / first_picture.NAME
         out = tmp_path / f"{draw}_{grain}_{'_'.join(names)}"
         out.mkdir()
         with open_session(out, {("drone", name): {"pass": name} for name in passes.known()}) as here:
@@ -109,10 +112,16 @@ def test_heat_and_depth_are_what_renders_of_their_own_give(both):
     assert np.array_equal(ours["masks"][..., 2], theirs["masks"][..., 2])
 
 
-def test_a_pass_is_the_same_whatever_is_made_with_it(film):
-    together = film("rgb", "thermal", "depth")
+def test_a_pass_is_the_same_whatever_is_made_with_it(film, tmp_path, monkeypatch):
+    """Also after the coarse first picture."""
+    monkeypatch.setattr(first_picture, "_COLUMNS", 48)
+    together = film("rgb", "thermal", "depth", coarse=tmp_path)
     for name in ("thermal", "depth"):
         assert np.array_equal(film(name)[name], together[name])
+    coarse = sensor.read_image(tmp_path / first_picture.NAME)
+    assert coarse.shape == (28, 48, 3)
+    upper, lower = coarse[:9].mean(axis=(0, 1)), coarse[-9:].mean(axis=(0, 1))
+    assert upper[2] > lower[2] > 0.02, "the sky is bluer than the ground"
 
 
 def test_geometry_is_seen_by_the_rays_of_classes():
@@ -142,6 +151,18 @@ def test_smoke_has_no_grain(film):
     assert hidden.mean() > 0.1
     assert np.abs(first["rgb"] - second["rgb"])[hidden].mean() < 5e-4, "the rest is the bloom of the flames"
     assert np.abs(first["rgb"] - second["rgb"])[~hidden].mean() > 1e-3
+
+
+def test_hidden_surfaces_are_not_lit_and_the_picture_is_the_same(film, monkeypatch):
+    lit = film("rgb", "depth", "thermal")
+    pixels = np.array(bpy.data.images["Firetwin Cell Distances"].pixels[:]).reshape(-1, 4)
+    hidden = pixels[:, 1] < 0.5 * cell_distances.NEVER
+    assert 0.05 < hidden.mean() < 0.95
+    monkeypatch.setattr(integrated.opaque_smoke, "measure", lambda *asked: None)
+    whole = film("thermal", "depth", "rgb")
+    assert np.abs(lit["rgb"] - whole["rgb"]).mean() < 0.002 * whole["rgb"].mean()
+    assert np.array_equal(lit["depth"], whole["depth"])
+    assert np.array_equal(lit["thermal"], whole["thermal"])
 
 
 def test_rays_from_surfaces_meet_the_shadow_of_smoke(film):

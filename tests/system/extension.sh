@@ -3,9 +3,10 @@
 #
 #   tests/system/extension.sh                 build the wheels of the core, the zip, and try it
 #   tests/system/extension.sh --zip           build the wheels of the core and the zip
+#   tests/system/extension.sh --zip --windows the same for Windows, in build/windows; tests/system/windows.sh tries it
 #   tests/system/extension.sh --try ZIP       only try this zip
 #
-# It also sets up (examples/setup.sh --with-wheels). The libraries of the core are built once, in 10 minutes, and kept in
+# All but --try set up (examples/setup.sh --with-wheels). The libraries of the core are built once, in 10 minutes, and kept in
 # build/portable or $FIRETWIN_PORTABLE.
 # FIRETWIN_WHEELS names an additional folder of wheels for the zip, such as the core for another Python.
 # For FIRETWIN_BLENDERS and Blender 5.2 see tests/system/wheels.sh.
@@ -16,18 +17,21 @@ source tests/system/package/blenders.sh
 portable=${FIRETWIN_PORTABLE:-build/portable}
 
 make_zip() {
-  local wheels=$portable/extension-wheels
+  local wheels=$portable/extension-wheels core=$portable out=build/extension
   examples/setup.sh --with-wheels
-  cpp/portable/build.sh
-  rm -rf build/extension
-  mkdir -p build/extension
+  if [[ ${1:-} == --windows ]]; then
+    core=$portable/windows out=build/windows/extension
+  fi
+  cpp/portable/build.sh "$@"
+  rm -rf "$out"
+  mkdir -p "$out"
   if ! sha256sum --check --status "$wheels.stamp" 2>/dev/null; then
     rm -rf "$wheels"
-    "$portable/tools/bin/pip" download --quiet --disable-pip-version-check --no-deps --only-binary=:all: --require-hashes \
+    "$core/tools/bin/pip" download --quiet --disable-pip-version-check --no-deps --only-binary=:all: --require-hashes \
       --requirement cpp/portable/extension-wheels.txt --dest "$wheels"
     sha256sum cpp/portable/extension-wheels.txt >"$wheels.stamp"
   fi
-  .venv/bin/python cpp/portable/extension.py build/extension "$portable/wheels" "$wheels" ${FIRETWIN_WHEELS:+"$FIRETWIN_WHEELS"}
+  .venv/bin/python cpp/portable/extension.py "$out" "$core/wheels" "$wheels" ${FIRETWIN_WHEELS:+"$FIRETWIN_WHEELS"}
 }
 
 try() { # python
@@ -44,7 +48,7 @@ try() { # python
 case ${1:-} in
   --try) zip=${2:?usage: tests/system/extension.sh [--zip | --try ZIP]} ;;
   --zip)
-    make_zip
+    make_zip "${@:2}"
     exit
     ;;
   *)

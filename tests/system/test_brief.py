@@ -331,6 +331,31 @@ def test_a_narrow_page_is_no_wider_than_a_phone(opened):
         opened.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
+ARRIVALS = (
+    '<div class="wide"><table class="arrivals"><thead><tr><th class="text">place</th>'
+    "<th>2 of 20<br>burn it by</th><th>10 of 20<br>burn it by</th><th>18 of 20<br>burn it by</th>"
+    "<th>do not reach it by<br>18 Sep 04:42, when the<br>forecast ends</th>"
+    '<th class="text">each member,<br>16 Sep 21:45 to 18 Sep 04:42</th></tr></thead>'
+    '<tbody><tr><td class="text">Robbs Peak</td><td>18 Sep 00:07</td><td>later or never</td>'
+    '<td>later or never</td><td>17 of 20</td><td class="text"><svg viewBox="0 0 276 26" class="dots"></svg>'
+    "</td></tr></tbody></table></div>"
+)
+"""A table of a forecast (see `firetwin.forecasts.brief_section`)."""
+
+
+def test_no_table_is_cut_in_half_a_screen(opened):
+    size = {"width": 925, "height": 844, "deviceScaleFactor": 1, "mobile": False}
+    opened.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        opened.execute_script(
+            "document.querySelector('main section').insertAdjacentHTML('beforeend', arguments[0])", ARRIVALS
+        )
+        cut = "[...document.querySelectorAll('.wide, .list')].filter(e => e.scrollWidth > e.clientWidth)"
+        assert opened.execute_script(f"return {cut}.map(e => e.textContent)") == []
+    finally:
+        opened.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
 def requested(browser):
     """Addresses of all requests that the browser's own log has, other than the page's and data in it."""
     log = [entry["message"] for entry in browser.get_log("performance")]

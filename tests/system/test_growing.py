@@ -7,7 +7,7 @@ import growing_model
 import numpy as np
 import pytest
 from firetwin.growing import follow, watch, watched
-from firetwin.jobs import convert
+from firetwin.jobs import convert, worker
 from firetwin.jobs.render import RenderRequest
 from firetwin.run import readers
 from firetwin.shot.source import ShotSource
@@ -72,6 +72,26 @@ def test_a_model_writes_on_while_it_is_watched(tmp_path, monkeypatch, kind):
     check_values(out)
 
 
+Worker = worker.Worker
+
+
+class FreshProcesses:
+    """A process of its own for each work, in place of one for all."""
+
+    def __init__(self, **options):
+        self.options = options
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def run(self, work, progress, stop, tell):
+        with Worker(**self.options) as process:
+            return process.run(work, progress, stop, tell)
+
+
 def test_frames_of_a_growing_run_equal_those_of_the_finished_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     model = growing_model.Writer(tmp_path / "fire.nc", "netcdf4")
@@ -100,6 +120,7 @@ def test_frames_of_a_growing_run_equal_those_of_the_finished_run(tmp_path, monke
     assert any("1 frame left" in each for each in said)
     model.close()
     convert.run([tmp_path / "fire.nc"], tmp_path / "finished")
+    monkeypatch.setattr(follow.worker, "Worker", FreshProcesses)
     for live, after in zip(growing, film("finished", "after"), strict=True):
         np.testing.assert_array_equal(live, after)
     assert (growing[0] != growing[1]).any()

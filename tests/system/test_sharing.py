@@ -78,9 +78,11 @@ def render(start):
 def _contents(out):
     """Bytes of every file but films and the store, whose pages depend on the order of entries.
 
-    An encoder may write the same pictures in other bytes; the manifest tells what films are made from.
+    An encoder may write the same pictures in other bytes; the manifest tells what films are made from, and
+    how long frames took.
     """
     manifest = json.loads((out / "manifest.json").read_text())
+    manifest.pop("processor_seconds", None)
     for path, entry in manifest["files"].items():
         if path.endswith(".mp4"):
             del entry["bytes"], entry["sha256"]

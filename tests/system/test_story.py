@@ -24,9 +24,10 @@ def told(tmp_path):
     return words, out
 
 
-def _frames(film):
-    """Number of frames of a film, by ffprobe."""
-    words = ["ffprobe", "-v", "error", "-show_entries", "stream=width,height,nb_frames", "-of", "csv=p=0"]
+def _probed(film):
+    """Size, number of frames and timecode of a film, by ffprobe."""
+    entries = "stream=width,height,nb_frames:stream_tags=timecode"
+    words = ["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries", entries, "-of", "csv=p=0"]
     return subprocess.run([*words, film], capture_output=True, text=True, check=True).stdout.strip()
 
 
@@ -34,7 +35,8 @@ def test_a_story_becomes_a_film_and_a_project_whose_cut_stays(told, capsys):
     words, out = told
     assert cli.main(words) == 0
     if shutil.which("ffprobe"):
-        assert _frames(out / "story.mp4") == "64,36,48"  # three seconds, less two dissolves
+        assert _probed(out / "story.mp4") == "64,36,48,01:00:00:00"  # three seconds, less two dissolves
+    assert {".otio", ".xml", ".edl"} <= {path.suffix for path in out.glob("story.*")}
     maps = sorted((out / "shots" / "growth" / "map").glob("*.png"))
     assert len(maps) == 12
     drawn = [path.stat().st_mtime_ns for path in maps]

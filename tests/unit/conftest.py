@@ -9,6 +9,7 @@ from firetwin.jobs import convert
 from firetwin.run import opening as runs
 from firetwin_core.run import Run
 from numpy.typing import NDArray
+from quick_work import *  # noqa: F403
 from small_run import RUN_TOML, small_fields, write_field
 
 

@@ -19,7 +19,7 @@ from ...run import times
 from ...scene.stations import control_line
 from ...shot.shot import Shot
 from ...shot.source import ShotSource
-from ...ui import job, run, scene_file, working
+from ...ui import run, scene_file, working
 from ...ui.job import InThread, Message, Steps
 from ...ui.menu_entries import MenuEntry
 from ...ui.sidebar import SidebarPanel
@@ -147,10 +147,7 @@ class FIRETWIN_PT_allocation(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, panel = self.layout, context.scene.firetwin
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        column = layout.column()
-        column.enabled = job.Job.current is None
+        column = working.settings_column(layout)
         for name in ("allocation_from", "allocation_hours", "allocation_divisions", "allocation_budget"):
             column.prop(panel, name)
         working.draw_button(layout.row(align=True), FIRETWIN_OT_allocate, "COMMUNITY")

@@ -74,11 +74,14 @@ class Plants:
         )
 
     def before(self, eye: Array, points: Array) -> Plants:
-        """Select plants that may hide points (m, 3) from a camera (3,)."""
-        low, high = (f(np.vstack([points, eye])[:, :2], axis=0) for f in (np.min, np.max))
-        wide = self.radius[:, None]
-        near = np.all((self.place > low - wide) & (self.place < high + wide), axis=1)
-        near &= np.hypot(*(self.place - eye[:2]).T) > self.near
+        """Select plants that may hide points (m, 3) from a camera (3,): in a box along the lines of sight."""
+        way, away = points[:, :2] - eye[:2], self.place - eye[:2]
+        east, north = way.mean(axis=0) / max(float(np.hypot(*way.mean(axis=0))), 1.0e-6)
+        turn = np.array([[east, -north], [north, east]])  # to metres along and across the mean line
+        lines, plants, wide = way @ turn, away @ turn, self.radius[:, None]
+        low, high = np.minimum(lines.min(axis=0), 0.0), np.maximum(lines.max(axis=0), 0.0)
+        near = np.flatnonzero(((plants > low - wide) & (plants < high + wide)).all(axis=1))
+        near = near[np.hypot(*away[near].T) > self.near[near]]
         return Plants(*(getattr(self, field.name)[near] for field in fields(self)))
 
 
@@ -93,9 +96,9 @@ def over_terrain(eye: Array, points: Array, ground: Terrain) -> NDArray[np.bool_
 
 def between_plants(eye: Array, points: Array, ground: Terrain, plants: Plants) -> NDArray[np.bool_]:
     """Return which points (m, 3) no plant hides from a camera (3,), m in the scene."""
-    plants = plants.before(eye, points)
     if len(points) == 0 or len(plants.height) == 0:
         return np.ones(len(points), bool)
+    plants = plants.before(eye, points)
     foot = ground.up(*plants.place.T)
     along = points[:, :2] - eye[:2]  # (m, 2)
     far = np.maximum(np.hypot(*along.T), 1.0e-6)[:, None]

@@ -75,7 +75,7 @@ def survey(run: Run, folder: Path, cache: Path, asked: tuple[datetime | None, da
     shot = Shot(settings, run)
     if shot.spin_up > _SPIN_UP:
         shot = shot.with_settings(replace(settings, smoke=replace(settings.smoke, spin_up=_SPIN_UP)))
-    ground, front = shot.bare_ground, shot.front
+    ground, front, _ = shot.bare_ground, shot.front, shot.flame_length  # which clips share
     cells = Cells(
         np.where(ground.burned >= 0.5, flame_map.cell_lengths(front, settings.fire.flame_length), 0.0),
         front.intensity,

@@ -39,7 +39,7 @@ def scene_text(run: Run, settings: Settings, kind: FireKind, clip: Clip, path: P
         path=path,
         time=Time(start=start, frames=FRAMES, fps=FPS, speed=1.0, zone=there),
         render=replace(settings.render, samples=8, passes=("rgb",)),
-        cameras=tuple(_camera(run, kind, view) for view in clip.placed),
+        cameras=tuple(camera(run, kind, view) for view in clip.placed),
     )
     head = (
         f"{kind.words[:1].upper()}{kind.words[1:]}, {times.text(start, there, seconds=True)}: "
@@ -56,7 +56,8 @@ def _name(kind: FireKind, view: PlacedView) -> str:
     return f"{kind.name}_{distance}"
 
 
-def _camera(run: Run, kind: FireKind, view: PlacedView) -> Camera:
+def camera(run: Run, kind: FireKind, view: PlacedView) -> Camera:
+    """Return the camera of a view."""
     frame = local_frame(run)
     (latitude, longitude), (aim_latitude, aim_longitude) = (
         tuple(round(float(v[0]), 7) for v in frame.reverse(place[None])[:2])

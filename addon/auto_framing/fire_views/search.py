@@ -24,7 +24,7 @@ _TORCHES = 3  # crowns that are tried at a place
 _TORCH_REACH = 40.0  # m around the place
 _GOOD = 0.7  # score of every camera at which the search ends
 _SMOKY = 100.0  # m, distance of cameras that are placed in solved smoke; its cells are wider than less
-_JUDGED = 5  # clips whose smoke is solved, which takes seconds
+_JUDGED = 5  # clips whose smoke is solved
 
 Array = NDArray[np.float64]
 
@@ -44,16 +44,22 @@ class Clip:
         return sum(view.score for view in self.placed) + len(self.placed)
 
 
-def find_clip(survey: Survey, kind: FireKind, light: LightOfDay) -> Clip | None:
-    """Find the best clip of a kind of fire in a light; None if no camera has a clear view."""
+def find_clip(survey: Survey, kind: FireKind, light: LightOfDay, judged: int = _JUDGED) -> Clip | None:
+    """Find the best clip of a kind of fire in a light; None if no camera has a clear view.
+
+    Parameters
+    ----------
+    judged
+        Clips whose smoke is solved, which takes seconds each.
+    """
     clips: list[Clip] = []
     for row, column in candidates(survey, kind, light):
         clips += [clip for clip in _clips(survey, kind, row, column) if clip.placed]
-        if sum(_is_good(clip, kind) for clip in clips) >= (_JUDGED if _far(kind) else 1):
+        if sum(_is_good(clip, kind) for clip in clips) >= (judged if _far(kind) else 1):
             break
     clips.sort(key=lambda clip: -clip.rating)
     if _far(kind):
-        clips = [_judged(clip, kind) for clip in clips[:_JUDGED]]
+        clips = [_judged(clip, kind) for clip in clips[:judged]]
         clips = sorted((clip for clip in clips if clip.placed), key=lambda clip: -clip.rating)
     return clips[0] if clips else None
 

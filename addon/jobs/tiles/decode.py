@@ -7,12 +7,11 @@ it is reported, and the others are decoded.
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -71,41 +70,41 @@ def run(contents: Sequence[DecodeTask], progress: Progress = silent) -> dict[str
         progress(sum(done), len(left), "tiles decoded")
 
     with ThreadPoolExecutor(ways) as pool:
-        parts = [
-            pool.submit(_decode, left[way::ways], lambda n, way=way: follow(way, n)) for way in range(ways)
-        ]
+        parts = [pool.submit(_decode, left[way::ways], partial(follow, way)) for way in range(ways)]
         for part in parts:
             bad |= part.result()
     return bad
 
 
-def _decode(contents: list[DecodeTask], follow: Any) -> dict[str, str]:
+def _decode(contents: list[DecodeTask], follow: Callable[[int], None]) -> dict[str, str]:
     """Decode in sequence; after a crash a new process continues with the next tile."""
     bad: dict[str, str] = {}
-    first = 0
+    first = reached = 0
+
+    def count(done: int, total: int, what: str = "", note: str = "") -> None:
+        nonlocal reached
+        reached = first + done
+        follow(reached)
+
+    def fail(reason: str) -> None:
+        bad[contents[reached].name] = reason
+
     while first < len(contents):
-        reached = 0
-
-        def count(done: int, total: int, what: str = "", note: str = "", first: int = first) -> None:
-            nonlocal reached
-            reached = done
-            follow(first + done)
-
+        reached = first
         work = partial(in_process, contents[first:])
         try:
-            bad |= worker.run(work, count, blender=False, patience=_SECONDS, size=_MEMORY)
-            return bad
+            worker.run(work, count, tell=fail, blender=False, patience=_SECONDS, size=_MEMORY)
+            break
         except worker.EndedError as error:
-            bad[contents[first + reached].name] = f"decoding {error}"
-            first += reached + 1
+            fail(f"decoding {error}")
+            first = reached + 1
     return bad
 
 
-def in_process(contents: list[DecodeTask], progress: Progress, tell: MessageCallback) -> dict[str, str]:
-    """Decode; worker side. Returns reasons of failures, by name."""
+def in_process(contents: list[DecodeTask], progress: Progress, tell: MessageCallback) -> None:
+    """Decode; worker side. Tells why the content fails whose number is the last progress."""
     from firetwin_core import tiles
 
-    bad = {}
     for number, each in enumerate(contents):
         progress(number, len(contents))
         try:
@@ -120,6 +119,5 @@ def in_process(contents: list[DecodeTask], progress: Progress, tell: MessageCall
             )
             decoded.write(tile, Path(each.out), resources)
         except (InputError, ValueError, MemoryError) as error:
-            bad[each.name] = " ".join(str(error).split()) or "memory ran out"
+            tell(" ".join(str(error).split()) or "memory ran out")
     progress(len(contents), len(contents))
-    return bad

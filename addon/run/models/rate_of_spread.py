@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 _LATE = 6.0  # a cell this many times later than the spread of its neighbours' times is late (chosen by trial)
 _STOP = 20.0  # an upwind difference this many times the smaller one is a stop, not a slow front (by trial)
 _CLIP = 6.0  # errors of a time by which a pair of neighbours may differ from a straight front (by trial)
-_BEND = 0.25  # second difference over the mean gradient around it at which fronts meet or begin (by trial)
+_BEND = 0.4  # second difference over the mean gradient around it at which fronts meet or begin (by trial)
 _NOISE_LEFT = 0.0130  # variance of a central difference of `smoothed` white noise of variance 1
 _MOST_NOISE = 0.9  # largest share of a squared gradient that counts as noise
 
@@ -37,6 +37,7 @@ def of_arrival(arrival: NDArray[np.float64], cell: tuple[float, float]) -> NDArr
 def of_noisy_arrival(arrival: NDArray[np.float64], cell: tuple[float, float]) -> NDArray[np.float64]:
     """Compute the rate of spread (m/s) from noisy times; NaN where fronts meet, begin or end.
 
+    Next to such cells a gradient below the mean around it is a part of the bend, and has no value either.
     The square of a gradient contains the variance of its noise, which is subtracted, up to `_MOST_NOISE`.
     """
     times = without_late_cells(arrival)
@@ -52,8 +53,11 @@ def of_noisy_arrival(arrival: NDArray[np.float64], cell: tuple[float, float]) ->
         error += _NOISE_LEFT * (noise / side) ** 2
         bend = np.maximum(bend, np.abs(before + after - 2.0 * here) / side)
     gradient = np.sqrt(square - np.minimum(error, _MOST_NOISE * square))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(bend < _BEND * mean_around(gradient, 2), 1.0 / gradient, np.nan)
+    gradient = np.where(bend < _BEND * mean_around(gradient, 2), gradient, np.nan)
+    bent = np.pad(np.isnan(gradient) & np.isfinite(arrival), 1)
+    beside = bent[:-2, inner] | bent[2:, inner] | bent[inner, :-2] | bent[inner, 2:]
+    with np.errstate(divide="ignore"):
+        return np.where(beside & (gradient < mean_around(gradient, 2)), np.nan, 1.0 / gradient)
 
 
 def mean_around(values: NDArray[np.float64], reach: int) -> NDArray[np.float64]:

@@ -103,7 +103,8 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
             _save(part / f"{before}longitude.npy", where.longitude)
         (part / JOURNAL).unlink(missing_ok=True)
         files.write(
-            part / "run.toml", lambda path: path.write_text(description(model, inputs), encoding="utf-8")
+            part / "run.toml",
+            lambda path: path.write_text(description(model, inputs), encoding="utf-8", newline="\n"),
         )
         _check(part, model)
         if out.is_dir():

@@ -13,6 +13,24 @@ from .feature import Feature, Polygon, degrees, ring
 SUFFIXES = (".geojson", ".json")
 
 
+def parse(path: Path) -> Any:
+    """Parse a JSON text as UTF-8, with or without a byte order mark.
+
+    Raises
+    ------
+    InputError
+        The file is not JSON.
+    """
+    try:
+        return json.loads(path.read_text(encoding="utf-8-sig"))
+    except json.JSONDecodeError as error:
+        raise input_error(
+            path, f"not valid JSON: {error.msg}", line=error.lineno, column=error.colno
+        ) from None
+    except (UnicodeDecodeError, RecursionError) as error:
+        raise input_error(path, f"not valid JSON: {error}") from None
+
+
 def read(path: Path, system: str = "") -> list[Feature]:
     """Read the features of a FeatureCollection, a Feature or a bare geometry.
 
@@ -26,14 +44,7 @@ def read(path: Path, system: str = "") -> list[Feature]:
     InputError
         The file is not GeoJSON, or pyproj is needed and missing.
     """
-    try:
-        whole = json.loads(path.read_text(encoding="utf-8-sig"))
-    except json.JSONDecodeError as error:
-        raise input_error(
-            path, f"not valid JSON: {error.msg}", line=error.lineno, column=error.colno
-        ) from None
-    except (UnicodeDecodeError, RecursionError) as error:
-        raise input_error(path, f"not valid JSON: {error}") from None
+    whole = parse(path)
     if not isinstance(whole, dict) or "type" not in whole:
         raise input_error(path, 'not a GeoJSON file: it has no "type"')
     system = _named_system(whole) or ("" if _is_in_degrees(whole) else system)

@@ -20,7 +20,7 @@ from matplotlib.path import Path
 from numpy.typing import NDArray
 
 from ...data import history
-from .. import areas, info, times
+from .. import areas, info, measure, times
 from .grid import ScoreGrid
 
 if TYPE_CHECKING:
@@ -157,8 +157,7 @@ def _relief(axes: Axes, run: Run, grid: ScoreGrid) -> None:
 
 
 def _bar(axes: Axes, wide: float) -> None:
-    unit = 10.0 ** np.floor(np.log10(wide / 4))
-    length = max(step for step in (1, 2, 5) if step * unit <= wide / 4) * unit
+    length = measure.round_length(wide / 4)
     (west, _), (south, north) = axes.get_xlim(), axes.get_ylim()
     x, y = west + 0.05 * wide, south + 0.05 * (north - south)
     axes.plot([x, x + length], [y, y], color="white", linewidth=5, solid_capstyle="butt", zorder=8)

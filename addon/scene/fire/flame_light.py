@@ -12,6 +12,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 from firetwin_core import constants
+from numpy.typing import NDArray
 
 from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
@@ -29,8 +30,9 @@ LIGHT = 2.0e-2
 """W of the scene's light per radiated W of thin flames; by eye, as bright as drawn flames are.
 It is 5e-5 for flames of 18 m with 15,000 cd/m2, half of them gaps, and a radiosity of 61 kW/m2, if a
 luminance of 1 is 16,000 cd/m2; 4e-4 for flames of 2 to 5 m."""
-THICK = 4.0, 2.2  # red radiance of thick flames over the luminance of drawn cores, by day and by night
-"""By eye; drawn flames have 1.1, as their mean luminance is half of the core's."""
+THICK = 6.6, 5.5  # red radiance of thick flames over the luminance of drawn cores, by day and by night
+"""By eye; drawn flames have 1.1 in the mean over opaque pixels."""
+_DEEP = 12.0  # m, depth and length of flames from which cards would add up to more than a flame's (by eye)
 COLOUR = (1.0, 0.36, 0.06)
 LAYOUT = flames.Layout(((REACH[1], 4.0),), gaps=False)
 """Denser than billboards, without gaps: surfaces near the front are lit evenly along it."""
@@ -58,16 +60,28 @@ def build(shot: Shot, grown: Stand | None, collection: bpy.types.Collection) -> 
     for name in ("arrival_time", "residence", "tilt", "seed"):
         add_attribute(data, name, "FLOAT", getattr(points, name))
     # The ground gets light from flames as tall as the front's, not from the low parts of a ragged front.
-    usual = flame_length(points.intensity, shot.settings.fire.flame_length)
-    add_attribute(data, "length", "FLOAT", np.maximum(points.length, usual))
+    add_attribute(data, "length", "FLOAT", np.maximum(points.length, _usual_length(shot, points)))
     add_attribute(data, "width", "FLOAT", np.maximum(points.width, LAYOUT.spacing[0][1]))
     add_attribute(data, "power", "FLOAT", RADIATED * LIGHT * points.heat)
+    add_attribute(data, "layers", "FLOAT", layers(shot, points))
     obj = owned.add(collection, "Flame Light", data)
     modifier = obj.modifiers.new(_NAME, "NODES")
     modifier.node_group = _node_group(shot, _card())
     _show_to_lighting_only(obj)
     obj.hide_viewport = True
     return obj
+
+
+def layers(shot: Shot, points: flames.Points) -> NDArray[np.float64]:
+    """Return the number (n,) of cards that add up along a line of sight through deep flames, at least 1."""
+    speed = shot.ground.spread(*shot.ground.under(points.position))
+    deep = np.minimum(speed * points.residence, _usual_length(shot, points)) / _DEEP
+    return np.maximum(deep, 1.0)
+
+
+def _usual_length(shot: Shot, points: flames.Points) -> NDArray[np.float64]:
+    """Return the length (n,) of the front's flames without their unevenness, m."""
+    return flame_length(points.intensity, shot.settings.fire.flame_length)
 
 
 def thick_radiance(stops: float, dark: float) -> float:
@@ -125,9 +139,9 @@ def _node_group(shot: Shot, card: bpy.types.Object) -> bpy.types.NodeTree:
     distance = tree.vector("DISTANCE", eye, tree.output("GeometryNodeInputPosition"), name="Value")
     power = named("power") * size * flicker * distance.smoothstep(REACH[1], REACH[0])
     dark = float(lamps.darkness(shot, np.array([shot.frames.middle]))[0])
-    thick = thick_radiance(exposure.middle(shot), dark)
+    thick = thick_radiance(exposure.middle(shot), dark) / named("layers")
     radiance = power / (width * height * (4.0 * np.pi))
-    radiance = thick * (1.0 - (radiance * (-1.0 / thick)).exp())
+    radiance = thick * (1.0 - (-radiance / thick).exp())
     east, north = shot.wind
     axis = (-north, east, 0.0) if np.hypot(east, north) > 0.0 else (1.0, 0.0, 0.0)
     lean = tree.output("FunctionNodeAxisAngleToRotation", {"Axis": axis, "Angle": named("tilt")})

@@ -30,9 +30,9 @@ THICKNESS = 20.0  # visible optical depth of the sootiest gas over a flame lengt
 _OPAQUE = 10.0  # 1/m, most of the visible extinction: small flames are thinner (by eye)
 INFRARED = ((0.5, 1.63), (1.8, 0.99), (5.0, 0.64), (18.0, 0.93), (30.0, 2.0))
 """Flame length, m, and infrared extinction of the sootiest gas, 1/m (by power, see test_flames)."""
-_CORE = 3.0  # luminance of the core times 2^exposure (by eye)
-_LUMINANCE = (0.3, 4.0)  # its bounds, units of the scene
-GREEN = 0.04, 0.57, 1.5  # green over red: at heat 0, increase, and its exponent
+_CORE = 1.8  # luminance of the core times 2^exposure (by eye)
+_LUMINANCE = (0.15, 4.0)  # its bounds, units of the scene
+GREEN = 0.04, 0.58, 2.4  # green over red: at heat 0, increase, and its exponent
 _ROWS = 33
 _LENGTHS = 0.2, 100.0  # m
 _SOOT = 0.05  # extinction of cooled soot over the flames, over a flame's (by eye)

@@ -14,7 +14,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.cameras.path import Path
-from ...shot.fire import emissions, flame_noise
+from ...shot.fire import emissions, flame_noise, flame_state
 from ...shot.fire.flame_size import CROWNS, SIGHT, flame_length, flame_temperature, flame_tilt
 from ...shot.shot import Shot
 from ...shot.terrain import noise
@@ -36,6 +36,8 @@ _TORCHES = 0.8  # fraction of the burning crowns that torch in a dense canopy
 # slopes of the logit of a crown's chance by its clump's noise, and by its own (by eye)
 _CLUMPED, _SINGLE = 5.0, 1.5
 _AROUND = 250.0  # m around a cell that its flames and firebrands reach
+_ACTIVE = 0.4, 0.8  # length of the front's flames over a tree's height at which it burns with them
+_BRIEF = 0.4  # factor on the residence time of crowns in such flames (by eye)
 _CROWN = 0.07  # area of a torching crown over the square of its height (assumed: 0.3 heights wide)
 _LIFE = (0.0, 0.2, 0.6, 1.0), (0.25, 1.0, 1.0, 0.2)  # size of a flame by its age in residence times
 _MEAN_LIFE = 0.765  # mean of that
@@ -218,8 +220,9 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
 
     The fraction of burning crowns (`fire_effects`) that torch grows with canopy density. They torch in the
     clumps in which the front has its tallest flames, for half a minute to a minute, up to 1.05 to 1.5 times
-    the tree's height (by eye). They are as wide as the tree: one of a distant, thinned stand burns for those
-    that it represents.
+    the tree's height (by eye). In an active crown fire they burn at once and briefly, in the tall flames of
+    the front (Van Wagner 1977: passive and active crown fire). Crowns are as wide as the tree: one of a
+    distant, thinned stand burns for those that it represents.
     """
     ground, (first, last) = shot.ground, shot.built_times[[0, -1]]
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
@@ -231,10 +234,11 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
         noise.uniform(key[:, 0], key[:, 1], shot.settings.seed + 400 + k) for k in range(4)
     )
     luck = _luck(flame_noise.clumping(shot, *grown.position[near, :2].T), single)
+    within = noise.smoothstep(*_ACTIVE, flame_state.even_length(shot, row, column) / grown.height[near])
     lit = (luck < _TORCHES * canopy / (canopy + 1.0)) & (arrival <= last)
     lit &= fire_effects.of_trees(shot, row, column, grown.height[near], grown.key[near]).torched
-    residence = 30.0 + 30.0 * size
-    arrival = arrival + 20.0 * late
+    residence = (30.0 + 30.0 * size) * (1.0 - (1.0 - _BRIEF) * within)
+    arrival = arrival + 20.0 * late * (1.0 - within)
     chosen = np.flatnonzero(lit & (arrival + residence > first))
     row, column, size = row[chosen], column[chosen], size[chosen]
     height = grown.height[near[chosen]]

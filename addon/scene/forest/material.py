@@ -14,7 +14,7 @@ from ...blender.owned import Stage
 from ...passes import masks
 from ...shot.fire import heat_release
 from ...shot.shot import Shot
-from .. import flame_field, flame_gaps, granite, haze, infrared, temperature
+from .. import cell_distances, flame_field, granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness
 from . import biomes
 
@@ -310,10 +310,10 @@ def _finish(
     surroundings of flames.
     """
     at_camera = infrared.radiance_at_camera(tree, shot, stage, warmth)
-    flame_gaps.write(tree, stage)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     plain = tree.output("ShaderNodeBsdfDiffuse", {"Color": _REFLECTED})
-    shader = tree.mix_shader(camera, plain, haze.apply(tree, shader, stage, glow))
+    shader = cell_distances.write(tree, stage, haze.apply(tree, shader, stage, glow))
+    shader = tree.mix_shader(camera, plain, shader)
     shader = nodes.thermal_switch(tree, shader, at_camera)
     # Not "Fac", the mean of three equal components: it is rounded, and instance numbers need all 24 bits.
     number, _, _ = tree.separate(tree.attribute("number", "INSTANCER", "Vector"))

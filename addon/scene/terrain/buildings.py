@@ -20,7 +20,7 @@ from ...run.buildings.rings import Rings
 from ...shot.shot import Shot
 from ...shot.surface import footprints
 from ...shot.terrain import noise
-from .. import flame_gaps, haze, infrared, temperature
+from .. import cell_distances, haze, infrared, temperature
 from . import burn_scar, fields, shading_inputs, windows
 
 WALL = (0.24, 0.22, 0.19)  # linear reflectances; by eye
@@ -147,8 +147,8 @@ def material(
     warmth = infrared.radiance_at_camera(
         tree, shot, stage, infrared.surface_radiance(tree, shot, stage, kelvin, emissivity)
     )
-    flame_gaps.write(tree, stage)
-    shader = nodes.thermal_switch(tree, haze.apply(tree, matt, stage), warmth)
+    visible = cell_distances.write(tree, stage, haze.apply(tree, matt, stage))
+    shader = nodes.thermal_switch(tree, visible, warmth)
     number = tree.attribute("number")
     tree.surface(nodes.mask_switch(tree, shader, float(masks.BUILDING), number))
     return look

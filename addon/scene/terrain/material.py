@@ -15,7 +15,7 @@ from ...blender.owned import Stage
 from ...passes import masks
 from ...shot.shot import Shot
 from ...shot.surface import orthophoto
-from .. import flame_gaps, haze
+from .. import cell_distances, haze
 from ..forest import biomes
 from ..forest.biomes import ShotBiome
 from . import (
@@ -64,7 +64,7 @@ def build(
         lake = known["water"] > 0.5
     visible = _visible_shader(tree, shot, stage, known, lake, photos, biome, maps or {}, skin, globe)
     warmth, kind = _data_outputs(tree, shot, stage, known, lake)
-    flame_gaps.write(tree, stage)
+    visible = cell_distances.write(tree, stage, visible)
     tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, visible, warmth), kind))
     material.cycles.emission_sampling = "NONE"  # sampled as a lamp, its small emitters would be noisy
     return material

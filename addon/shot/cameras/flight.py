@@ -88,15 +88,16 @@ def short(ground: Terrain, position: Array, clearance: Array) -> Array:
     return np.maximum(np.append(needed, 0.0), np.append(0.0, needed))
 
 
-def heading(position: Array) -> Array:
+def heading(position: Array, still: float = _STILL) -> Array:
     """Heading (frames,), radians clockwise from north and unwrapped, along a path (frames, 3).
 
-    A camera at rest keeps its last heading, or takes its next one; north if it never moves.
+    A camera that moves by less than `still` m a frame keeps its last heading, or takes its next one; north if
+    it never moves.
     """
     if len(position) == 1:
         return np.zeros(1)
     east, north = np.gradient(position[:, :2], axis=0).T
-    moving = np.flatnonzero(np.hypot(east, north) > _STILL)
+    moving = np.flatnonzero(np.hypot(east, north) > still)
     if len(moving) == 0:
         return np.zeros(len(position))
     before = np.searchsorted(moving, np.arange(len(position)), "right") - 1

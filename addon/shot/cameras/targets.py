@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 
 MOVING = ("head", "fire")  # moving targets
 _RECENT = 1800.0  # s; in a large fire, ground that burned within this time belongs to the active front
+_SAMPLES = 241  # times of a shot at which a path is computed that follows the fire
 _KNOTS = 24  # times at which the target is computed; it is interpolated between
 _BLOCK = 1500.0  # m, blocks of a large fire's front that are compared
 _LARGE = 20_000.0  # m, fire size from which block and time apply; they shrink with smaller fires
@@ -26,7 +27,7 @@ _FASTEST = 5.0  # m/s, upper limit of the rate of spread
 _CELLS = 4.0  # fuel cells, lower bound of block size and front depth
 _HYSTERESIS = 4.0  # blocks; distance in which another head must be e times as strong to be followed
 
-_tracks: WeakKeyDictionary[Terrain, dict[tuple[str, bytes], tuple[Array, Array]]] = WeakKeyDictionary()
+_tracks: WeakKeyDictionary[Terrain, dict[tuple[str, float, float], tuple[Array, Array]]] = WeakKeyDictionary()
 
 
 def follow(target: str, ground: Terrain, times: Array, above: float) -> Array:
@@ -37,17 +38,35 @@ def follow(target: str, ground: Terrain, times: Array, above: float) -> Array:
     above
         Height above ground, m.
     """
-    east, north = _track(target, ground, times)
+    moments = samples(times)
+    east, north = _track(target, ground, moments)
     place = ground.point(*ground.geodetic(east, north), above)
     place[:, 2] = smoothed(place[:, 2])
-    return place
+    return at_frames(place, times)
 
 
-def _track(target: str, ground: Terrain, times: Array) -> tuple[Array, Array]:
-    """East and north (frames,) of a target, computed once: auto framing tries many cameras on one target."""
-    known, key = _tracks.setdefault(ground, {}), (target, np.asarray(times, np.float64).tobytes())
+def samples(times: Array) -> Array:
+    """Return even times (n,) of a shot, s: a path computed at them does not depend on the number of frames.
+
+    Parameters
+    ----------
+    times
+        (frames,) s.
+    """
+    return np.unique(np.linspace(times[0], times[-1], _SAMPLES))
+
+
+def at_frames(sampled: Array, times: Array) -> Array:
+    """Interpolate points (n, 3) at the samples of a shot to its frames (frames, 3)."""
+    moments = samples(times)
+    return np.stack([np.interp(times, moments, values) for values in sampled.T], axis=-1)
+
+
+def _track(target: str, ground: Terrain, moments: Array) -> tuple[Array, Array]:
+    """East and north (n,) of a target, computed once: auto framing tries many cameras on one target."""
+    known, key = _tracks.setdefault(ground, {}), (target, float(moments[0]), float(moments[-1]))
     if key not in known:
-        known[key] = (head if target == "head" else middle)(ground, times)
+        known[key] = (head if target == "head" else middle)(ground, moments)
     return known[key]
 
 

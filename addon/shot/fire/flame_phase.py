@@ -22,6 +22,7 @@ _LEAST = 0.1  # m, for divisions
 
 _BEGIN = (0.25, 0.4)  # distances behind the front, flame lengths, between which low flames begin
 _SHARES = 0.35, 0.08  # length of low flames over the full length: at the front; of burned fuel (by eye)
+_MOST_LOW = 5.0  # m, length of low flames: under burned crowns the surface burns on (by eye)
 _PATCHES = 2.2  # length of low flames over the noise of patches; half of the ground glows only (by eye)
 
 Array = NDArray[np.float64]
@@ -61,6 +62,7 @@ def low(age: Array, distance: Array, speed: Array, residence: Array, length: Arr
     _tall, out = times(speed, residence, length)
     first, last = _SHARES
     main = first + (last - first) * noise.smoothstep(0.0, 1.0, age / out)
+    main = np.minimum(main, _MOST_LOW / np.maximum(length, _LEAST))
     main *= np.clip(_PATCHES * patch, 0.0, 1.2) * (1.0 - noise.smoothstep(1.0, _ENDS[0], age / out))
     residual = _residual(age - out, residence, length, patch)
     return np.maximum(main, residual) * noise.smoothstep(*_BEGIN, distance / np.maximum(length, _LEAST))

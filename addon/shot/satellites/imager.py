@@ -158,7 +158,7 @@ def grid_of(instrument: Instrument, run: Run, longitude: float) -> ImagerGrid:
 def picture(instrument: Instrument, grid: ImagerGrid, fire: Fire, time: float) -> ImagerPicture:
     """Simulate a picture of a run's fire at a time (s), of the pixels entirely within the run's domain."""
     run = fire.run
-    rows, columns = _inside(grid, run)
+    rows, columns = pixels_inside(grid, run)
     area = pixel_areas(grid, rows, columns)
     kelvin = _background(grid, fire, time, rows, columns)
     part, heat = _burning(grid, fire, time, rows, columns, area)
@@ -206,7 +206,7 @@ def measure_power(
     return np.where(fire, shared[blocks], 0.0), int((seen > most).sum())
 
 
-def _inside(grid: ImagerGrid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def pixels_inside(grid: ImagerGrid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Rows and columns of whole pixels within the run's domain.
 
     Raises

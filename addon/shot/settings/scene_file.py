@@ -12,6 +12,7 @@ from typing import Any
 
 from ...did_you_mean import suggestion
 from ...errors import reading
+from ...limits import RUN_YEARS
 from ...toml_text import loads
 from ..schema import Field, Key, Where, either, fields, items, validate
 from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, REMOVED
@@ -203,10 +204,10 @@ class TableReader(SceneText):
         if moment.tzinfo is None:
             reason = "has no zone; end it in Z (UTC) or in an offset like -07:00"
             raise self.error(where, f"{_dotted(where)} {reason}")
-        try:
-            return moment.astimezone(UTC)
-        except OverflowError:
-            raise self.error(where, f"{_dotted(where)} lies outside of the years 1 to 9999") from None
+        first, last = RUN_YEARS
+        if not first <= moment.year <= last:
+            raise self.error(where, f"{_dotted(where)} lies outside of the years {first} to {last}")
+        return moment.astimezone(UTC)
 
     def tuple(self, kind: Any, values: list[Any], where: Where) -> tuple[Any, ...]:
         """Convert a list to the tuple type `kind`."""

@@ -131,6 +131,12 @@ class Terrain:
             detailed.rough = max(RELIEF, float(np.abs(detailed.patch.offset).max()))
         return detailed
 
+    def with_fire(self, run: Run, arrival: Array) -> Terrain:
+        """Return the same terrain with the fire of a run on equal grids."""
+        burned = copy.copy(self)
+        burned._set_arrival(_oriented(arrival, run.fuel_latitude, run.fuel_longitude), float(run.times[-1]))
+        return burned
+
     def _grid(self) -> Array:
         """Scene points (ny, nx, 3) of the grid, m."""
         return self.frame.forward_grid(self.fields.latitude, self.fields.longitude, self.fields.elevation)
@@ -269,18 +275,21 @@ class Terrain:
             np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(latitude, longitude, above)
         )
         row, column = self.indices(latitude, longitude)
-        coarse = self.frame.forward(latitude, longitude, self.height(row, column))
-        weight = self.detail(coarse[:, 0], coarse[:, 1], coarse[:, 2])
-        return self.frame.forward(latitude, longitude, self.height(row, column, weight) + above)
+        height = self.height(row, column)
+        if self.near_radius > 0.0 and len(self.eyes):
+            coarse = self.frame.forward(latitude, longitude, height)
+            height = self.height(row, column, self.detail(*coarse.T))
+        return self.frame.forward(latitude, longitude, height + above)
 
     def geodetic(self, east: ArrayLike, north: ArrayLike) -> tuple[Array, Array]:
         """Latitude and longitude of the ground at scene coordinates (m); verticals converge with distance."""
         east, north = (np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(east, north))
         up = -(east**2 + north**2) / (2.0 * MEAN_RADIUS)
-        for _ in range(3):
+        for _ in range(2):
             latitude, longitude, _height = self.frame.reverse(np.stack([east, north, up], axis=-1))
-            row, column = self.indices(latitude, longitude)
-            up = self.frame.forward(latitude, longitude, self.height(row, column))[:, 2]
+            height = self.height(*self.indices(latitude, longitude))
+            up = self.frame.forward(latitude, longitude, height)[:, 2]
+        latitude, longitude, _height = self.frame.reverse(np.stack([east, north, up], axis=-1))
         return latitude, longitude
 
     def under(self, position: NDArray[np.float64]) -> tuple[Array, Array]:

@@ -34,24 +34,25 @@ class FlowSource(Source):
 
     Attributes
     ----------
-    flow_type
-        Kind of the flow.
     detailed
-        True if a frame of a time lapse shows several moments, and smoke near the camera has finer voxels.
+        True if smoke near the camera has finer voxels.
     """
 
     name = "flow"
     marched = True
-    flow_type: ClassVar[type[Flow]] = Flow
     detailed: ClassVar[bool] = True
 
     def __init__(self, shot: Shot) -> None:
         super().__init__(shot)
-        self.exposure = shutter.exposure(shot) if self.detailed and allows_ray_march(shot) else 0.0
+        self.exposure = shutter.exposure(shot) if allows_ray_march(shot) else 0.0
         self.parts = shutter.parts(self.exposure)
-        self.flow = self.flow_type(shot.with_sub_frames(self.parts), lambda *done: self.progress(*done))
+        self.flow = self._flow_type()(shot.with_sub_frames(self.parts), lambda *done: self.progress(*done))
         self.flow.elsewhere, self.flow.stop = lambda: self.elsewhere(), self.stop
         self._cached_close_up: flow_frames.Painter | None = None
+
+    def _flow_type(self) -> type[Flow]:
+        """Return the kind of the flow."""
+        return Flow
 
     def inputs(self) -> dict[str, Any]:
         """Return the folders of its snapshots."""

@@ -5,18 +5,21 @@ from __future__ import annotations
 import functools
 
 from .. import coarse, flow_frames
+from ..flow import Flow
 from .flow import FlowSource
 
 METHOD = "coarse, in seconds"
 
 
 class PreviewSource(FlowSource):
-    """Smoke of a coarse flow, without exposure and close-ups."""
+    """Smoke of a coarse flow, without close-ups."""
 
     name = "preview"
     preview_of = "flow"
-    flow_type = coarse.CoarseFlow
     detailed = False
+
+    def _flow_type(self) -> type[Flow]:
+        return coarse.LapseFlow if self.exposure else coarse.CoarseFlow
 
     @functools.cached_property
     def _layers(self) -> list[flow_frames.Layer]:

@@ -6,7 +6,6 @@ under the Open Database License: publications must show "(c) OpenStreetMap contr
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -38,15 +37,7 @@ def sniff(path: Path, head: bytes) -> bool:
 
 def read(path: Path, options: ImportOptions = USUAL) -> Batch:
     """Read all fire stations."""
-    batch = Batch(name=NAME, licence=LICENCE, url=URL)
-    try:
-        whole = json.loads(path.read_text(encoding="utf-8-sig"))
-    except json.JSONDecodeError as error:
-        raise input_error(
-            path, f"not valid JSON: {error.msg}", line=error.lineno, column=error.colno
-        ) from None
-    except RecursionError as error:
-        raise input_error(path, f"not valid JSON: {error}") from None
+    batch, whole = Batch(name=NAME, licence=LICENCE, url=URL), geojson.parse(path)
     if "elements" in whole:
         _read_elements(path, whole, batch)
     else:

@@ -159,9 +159,12 @@ def decode(body: bytes, name: str) -> Pixels:
     height, width, bands = read.shape
     if height != width or height not in _SIDES:
         raise missing(name, f"is not a tile: {width} x {height} pixels")
-    colour = read[..., :3] if bands > 2 else np.repeat(read[..., :1], 3, axis=-1)
-    alpha = read[..., -1:] if bands in (2, 4) else np.ones((height, width, 1), np.float32)
-    return np.rint(255.0 * np.clip(np.concatenate([colour, alpha], axis=-1), 0.0, 1.0)).astype(np.uint8)
+    whole = np.full((height, width, 4), 255, np.uint8)
+    read = (read * np.float32(255.0) + np.float32(0.5)).astype(np.uint8)
+    whole[..., :3] = read[..., :3] if bands > 2 else read[..., :1]
+    if bands in (2, 4):
+        whole[..., 3] = read[..., -1]
+    return whole
 
 
 def _enlarge_part(coarse: Pixels, up: int, column: int, row: int) -> Pixels | None:

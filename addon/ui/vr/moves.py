@@ -13,24 +13,24 @@ from . import landmark_list, session
 _SECONDS = 10.0  # s to run through the whole film with the thumbstick at its end
 
 
-def is_in_session(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Return whether a session shows a built scene; otherwise set the poll message."""
-    if not session.is_running():
-        cls.poll_message_set("Start VR first")
-        return False
-    return panel_state.require(cls, context)
+class InSession:
+    """An operator of a session that shows a built scene."""
+
+    @classmethod
+    def poll(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+        """Return whether it can be used; otherwise set the poll message."""
+        if not session.is_running():
+            cls.poll_message_set("Start VR first")
+            return False
+        return panel_state.require(cls, context)
 
 
-class FIRETWIN_OT_vr_play(bpy.types.Operator):
+class FIRETWIN_OT_vr_play(InSession, bpy.types.Operator):
     """Play the film in the headset, or pause it"""
 
     bl_idname = "firetwin.vr_play"
     bl_label = "Play or pause in VR"
     bl_options = {"INTERNAL"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return is_in_session(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -39,7 +39,7 @@ class FIRETWIN_OT_vr_play(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FIRETWIN_OT_vr_time(bpy.types.Operator):
+class FIRETWIN_OT_vr_time(InSession, bpy.types.Operator):
     """Move the time of the film with the thumbstick, faster if it is pushed farther"""
 
     bl_idname = "firetwin.vr_time"
@@ -47,10 +47,6 @@ class FIRETWIN_OT_vr_time(bpy.types.Operator):
     bl_options = {"INTERNAL"}
 
     direction: bpy.props.IntProperty(name="Direction", default=1, min=-1, max=1)
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return is_in_session(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         self._last, self._exact = time.monotonic(), float(context.scene.frame_current)
@@ -89,7 +85,7 @@ class FIRETWIN_OT_vr_time(bpy.types.Operator):
             scene.frame_set(frame)
 
 
-class FIRETWIN_OT_vr_landmark(bpy.types.Operator):
+class FIRETWIN_OT_vr_landmark(InSession, bpy.types.Operator):
     """Cut to the next or previous landmark: head of the fire, ignition, cameras and stations"""
 
     bl_idname = "firetwin.vr_landmark"
@@ -98,10 +94,6 @@ class FIRETWIN_OT_vr_landmark(bpy.types.Operator):
 
     step: bpy.props.IntProperty(name="Step", default=1)
     name: bpy.props.StringProperty(name="Name", description="Name of the landmark; empty: step through them")
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return is_in_session(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -120,7 +112,7 @@ def _neighbour(scene: bpy.types.Scene, step: int) -> str:
     return names[(names.index(current) + step) % len(names)] if current in names else names[0]
 
 
-class FIRETWIN_OT_vr_turn(bpy.types.Operator):
+class FIRETWIN_OT_vr_turn(InSession, bpy.types.Operator):
     """Turn the viewer by the angle of a snap turn"""
 
     bl_idname = "firetwin.vr_turn"
@@ -128,10 +120,6 @@ class FIRETWIN_OT_vr_turn(bpy.types.Operator):
     bl_options = {"INTERNAL"}
 
     direction: bpy.props.IntProperty(name="Direction", description="1: left, -1: right", default=1)
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return is_in_session(cls, context)
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:

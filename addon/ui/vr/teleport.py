@@ -14,21 +14,17 @@ from ...scene.camera import ground_raycast
 from .. import working
 from . import display, session
 from .landmark_list import EYE
-from .moves import is_in_session
+from .moves import InSession
 
 _LEFT = 0  # first controller of the pose actions
 
 
-class FIRETWIN_OT_vr_teleport(bpy.types.Operator):
+class FIRETWIN_OT_vr_teleport(InSession, bpy.types.Operator):
     """Teleport to the ground that the left controller points at, when its trigger is released"""
 
     bl_idname = "firetwin.vr_teleport"
     bl_label = "Teleport in VR"
     bl_options = {"INTERNAL"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return is_in_session(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         context.window_manager.modal_handler_add(self)

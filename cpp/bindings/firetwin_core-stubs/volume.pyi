@@ -413,6 +413,26 @@ class Illumination:
             Extinction (1/m) at height 0 of two layers of haze, and their e-folding heights (m).
         """
 
+def flame_distance(
+    flames: FlameVolume, origins: ArrayLike, directions: ArrayLike, farthest: float
+) -> NDArray[np.float32]:
+    """Measure the distance of flames along rays, in clear air.
+
+    Parameters
+    ----------
+    origins
+        (n, 3) m, or (3,) if all rays start at one point.
+    directions
+        (n, 3) unit vectors.
+    farthest
+        Length of the rays, m.
+
+    Returns
+    -------
+    (n, 2) distance within which half of the flames' red light is emitted, m, and the radiance of that light;
+    0 without flames.
+    """
+
 def march(
     layers: Sequence[Bricks],
     origins: ArrayLike,
@@ -519,6 +539,20 @@ def march_infrared(
     ------
     ValueError
         Shapes do not match.
+    """
+
+def opaque_distance(
+    layers: Sequence[Bricks], origins: ArrayLike, directions: ArrayLike, step: float, depth: float
+) -> NDArray[np.float32]:
+    """Compute the distance (n,) along rays at which smoke becomes opaque, m; infinity if it never does.
+
+    Parameters
+    ----------
+    layers, origins, directions, step
+        As in `optical_depth`.
+    depth
+        Optical depth, in green light, at which smoke is opaque. Blocks of smoke count as a whole, so distances
+        are up to the length of a block too long.
     """
 
 def optical_depth(

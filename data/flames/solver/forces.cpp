@@ -14,10 +14,6 @@ constexpr float eddy_rise = 0.8F;                      ///< speed at which small
 constexpr float eddy_least = 0.25F;                    ///< temperature below which none are made
 constexpr float vortex_least = 0.05F;
 
-std::uint32_t use(const Settings& settings, std::uint32_t number) {
-  return static_cast<std::uint32_t>(settings.seed) * 64U + number;
-}
-
 void add_buoyancy(Grid& w, const Grid& temperature, float duration) {
   for (int k = 1; k < temperature.nz; ++k) {
     for (int j = 0; j < temperature.ny; ++j) {
@@ -72,10 +68,10 @@ void add_gusts(Velocity& f, const Settings& s, float time, float duration) {
       const float y = static_cast<float>(j) * cell * y_scale;
       for (int i = begin; i < end; ++i) {
         const float x = static_cast<float>(i) * cell / gust_size - drift;
-        f.v(i, j, k) += amount * noise(x, y, up + 0.7F * time, period, use(s, 9));
-        f.u(i, j, k) += amount * noise(x, y, up - 0.6F * time, period, use(s, 10));
+        f.v(i, j, k) += amount * noise(x, y, up + 0.7F * time, period, noise_seed(s, 9));
+        f.u(i, j, k) += amount * noise(x, y, up - 0.6F * time, period, noise_seed(s, 10));
         if (k > 0) {
-          f.w(i, j, k) += 0.6F * amount * noise(x, y, up - 0.6F * time, period, use(s, 11));
+          f.w(i, j, k) += 0.6F * amount * noise(x, y, up - 0.6F * time, period, noise_seed(s, 11));
         }
       }
     }
@@ -90,8 +86,8 @@ void add_small_eddies(Velocity& f, const Grid& temperature, const Settings& s, f
   const int period = std::max(1, static_cast<int>(std::lround(along / eddy_size)));
   const float scale = cell / eddy_size, y_scale = static_cast<float>(period) / along * cell;
   const auto both = [&](float x, float y, float z, std::uint32_t number) {
-    return noise(x, y, z, period, use(s, number)) +
-           noise(2.0F * x, 2.0F * y, 2.0F * z, 2 * period, use(s, number + 3));
+    return noise(x, y, z, period, noise_seed(s, number)) +
+           noise(2.0F * x, 2.0F * y, 2.0F * z, 2 * period, noise_seed(s, number + 3));
   };
   for (int k = 1; k < s.nz - 1; ++k) {
     const float z = (static_cast<float>(k) * cell - eddy_rise * time) / eddy_size;

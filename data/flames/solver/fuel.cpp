@@ -24,10 +24,6 @@ struct Along {
         period(std::max(1, static_cast<int>(std::lround(along / size)))) {}
 };
 
-std::uint32_t use(const Settings& settings, std::uint32_t number) {
-  return static_cast<std::uint32_t>(settings.seed) * 64U + number;
-}
-
 /// Shift (units) of the leading edge at each y.
 std::vector<float> edge_shift(const Settings& s, float time) {
   const float along = static_cast<float>(s.ny) / static_cast<float>(s.cells);
@@ -35,9 +31,10 @@ std::vector<float> edge_shift(const Settings& s, float time) {
   std::vector<float> shift;
   for (int j = 0; j < s.ny; ++j) {
     const float y = (static_cast<float>(j) + 0.5F) / static_cast<float>(s.cells);
-    shift.push_back(
-        bend_shift * noise(time * patch_rate, y * large.scale, 0.5F, large.period, use(s, 1)) +
-        small_shift * noise(time * small_rate, y * small.scale, 0.5F, small.period, use(s, 2)));
+    shift.push_back(bend_shift * noise(time * patch_rate, y * large.scale, 0.5F, large.period,
+                                       noise_seed(s, 1)) +
+                    small_shift * noise(time * small_rate, y * small.scale, 0.5F, small.period,
+                                        noise_seed(s, 2)));
   }
   return shift;
 }
@@ -47,9 +44,11 @@ float patches(const Settings& s, float x, float y, float time) {
   const float along = static_cast<float>(s.ny) / static_cast<float>(s.cells);
   const Along large(along, patch), small(along, small_patch), groups(along, group);
   const float sum =
-      noise(x / patch, y * large.scale, time * patch_rate, large.period, use(s, 3)) +
-      0.9F * noise(x / small_patch, y * small.scale, time * small_rate, small.period, use(s, 4));
-  const float peaks = noise(0.5F, y * groups.scale, time * group_rate, groups.period, use(s, 5));
+      noise(x / patch, y * large.scale, time * patch_rate, large.period, noise_seed(s, 3)) +
+      0.9F * noise(x / small_patch, y * small.scale, time * small_rate, small.period,
+                   noise_seed(s, 4));
+  const float peaks =
+      noise(0.5F, y * groups.scale, time * group_rate, groups.period, noise_seed(s, 5));
   return std::max(0.0F, 1.0F + s.uneven * (sum + 0.7F * peaks));
 }
 
@@ -81,9 +80,9 @@ float crown_density(const Settings& s, float x, float y, float z) {
   }
   const float radius = s.crown_radius * std::pow(1.0F - up, 0.7F) * std::min(1.0F, up / 0.12F);
   const float away = std::sqrt(x * x + y * y) / radius;
-  const float dense = 0.35F +
-                      2.0F * noise(x / clump, y / clump + 40.0F, z / clump, unbounded, use(s, 6)) +
-                      0.8F * noise(x / twig, y / twig + 90.0F, z / twig, unbounded, use(s, 7));
+  const float dense =
+      0.35F + 2.0F * noise(x / clump, y / clump + 40.0F, z / clump, unbounded, noise_seed(s, 6)) +
+      0.8F * noise(x / twig, y / twig + 90.0F, z / twig, unbounded, noise_seed(s, 7));
   return away < 1.0F ? std::clamp(dense, 0.0F, 1.0F) * (0.35F + 0.65F * away) : 0.0F;
 }
 
@@ -129,7 +128,7 @@ void add_crown_fuel(Grid& mixture, const Grid& density, const Settings& s, float
     const float scale = cell / clump;
     const float flare =
         noise(static_cast<float>(i) * scale, static_cast<float>(j) * scale,
-              static_cast<float>(k) * scale + time * flare_rate, unbounded, use(s, 8));
+              static_cast<float>(k) * scale + time * flare_rate, unbounded, noise_seed(s, 8));
     const float rate = s.inflow * density(i, j, k) * std::max(0.0F, 1.0F + 1.6F * flare);
     mixture(i, j, k) += (fuel_mixture - mixture(i, j, k)) * std::min(1.0F, rate * duration);
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct Settings {
   float crown_base = 0.10F, crown_top = 0.62F, crown_radius = 0.22F;
   std::string out; ///< path of the frames; `.profiles` is added for the means
 };
+
+/// Seed of one of the noises of a flame.
+inline std::uint32_t noise_seed(const Settings& settings, std::uint32_t number) {
+  return static_cast<std::uint32_t>(settings.seed) * 64U + number;
+}
 
 /// Reads `key=value` arguments; unknown keys and values that are not numbers raise
 /// invalid_argument.

@@ -18,6 +18,7 @@ from firetwin.export import job as export_job
 from firetwin.farm import submission
 from firetwin.jobs import assets, convert, render, render_blend, sample
 from firetwin.jobs.tiles import bounding_boxes
+from firetwin.story.film import Film
 from firetwin.ui import navigation, quality, smoke_volumes, stations_panel, working
 from mathutils import Euler, Matrix
 from panel_scene import state
@@ -135,6 +136,10 @@ KEEPS = {
     "farm_status": {},
     "farm_resume": {},
     "farm_cancel": {},
+    "story_make": {},
+    "story_move": {"by": 1},
+    "story_edit": {"seconds": 2.0},
+    "story_render": {},
     "help": {"page": "farm"},
     "vr_start_at": {"name": "Ignition"},
     "viewport_measure": {},
@@ -142,6 +147,7 @@ KEEPS = {
 BOX = {"name": "set", "tiles": 1, "credits": [], "corners": np.arange(24.0).tolist()}
 ALLOCATION = {"divisions": [], "reasons": [], "left_out": [], "map": {"features": []}}
 LISTENS = {"queue_esc", "station_pick", "stop", "fly"}  # for Esc or a click, and while something goes on
+OPENS = {"story_open"}  # another file
 IN_VR = {"vr_session", "vr_play", "vr_time", "vr_landmark", "vr_turn", "vr_teleport"}  # need a headset
 
 
@@ -156,7 +162,7 @@ def call(name, options, folder):
 @pytest.mark.slow  # every operator, undone and redone
 def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path, monkeypatch):
     """Undo reverts the changes of an operator, and redo restores them; other operators change nothing."""
-    assert {*CHANGES, *KEEPS, *LISTENS, *IN_VR} == set(OPERATORS)
+    assert {*CHANGES, *KEEPS, *LISTENS, *OPENS, *IN_VR} == set(OPERATORS)
     monkeypatch.setattr(convert, "default_output", lambda paths, *_, **__: (paths[0], True))
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
@@ -168,6 +174,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
     monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
     monkeypatch.setattr(submission, "run_command", lambda *_, **__: None)
     monkeypatch.setattr(submission, "cancel_command", lambda out: [])
+    monkeypatch.setattr(Film, "make", lambda *_: [])
     monkeypatch.setattr(smoke_volumes, "_state", lambda scene: smoke_volumes._State(3, {1}))
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))
     (tmp_path / "presets" / "firetwin").mkdir(parents=True)

@@ -1,13 +1,14 @@
-"""Disturb processes that share work at random; at the end every file must equal an undisturbed render's.
+"""Disturb processes that share work at random; at the end every file must equal those of undisturbed work.
 
     .venv/bin/python tests/system/chaos/chaos.py [--minutes 5] [--seed N] [--keep FOLDER]
 
-Jobs: a render, the tasks of a farm, and a render with tiles of a server, each by two processes, and a third
-that watches. Faults: SIGKILL of a process with or without its children, SIGSTOP, a full disk, a read-only
-disk, clocks that jump by hours, lost file locks, and a process of another version with the same cache. A
-process may end with a message, and is started again. A finding is a traceback, a crash, a process that does
-not end after the faults, or a file that differs. Exit status 1 if there are findings. The disk is disturbed
-if this program may mount one (as root, or in a user namespace).
+Jobs: a render, the tasks of a farm, a render with tiles of a server, an export, a delivery, a watch of a
+model, a data set and a storyboard, each by two processes, and a third that watches. Faults: SIGKILL of a
+process with or without its children, SIGSTOP, a full disk, a read-only disk, clocks that jump by hours, lost
+file locks, and a process of another version with the same cache. A process may end with a message, and is
+started again. A finding is a traceback, a crash, a process that does not end after the faults, or a file
+that differs. Exit status 1 if there are findings. The disk is disturbed if this program may mount one (as
+root, or in a user namespace).
 """
 
 import argparse
@@ -102,7 +103,7 @@ class Round:
 
     def _start(self) -> Process:
         """Start a process on a machine that may be faulty."""
-        machine = self.chance.choice(MACHINES)
+        machine = self.chance.choice([each for each in MACHINES if self.job.mixed or each != "version"])
         self.faults[machine] += machine != "sound"
         self.faults["processes"] += 1
         hours = self.chance.choice((-30, -3, 3, 30))
@@ -141,7 +142,7 @@ class Round:
             self.findings.append(found)
 
     def _compare(self) -> int:
-        found, wanted = shared_jobs.contents(self.place / "out"), self.job.wanted
+        found, wanted = self.job.contents(self.place / "out"), self.job.wanted
         names = found.keys() | wanted.keys()
         different = sorted(name for name in names if found.get(name) != wanted.get(name))
         if different:

@@ -129,6 +129,33 @@ kind = "globe"
 latitude = 38.9
 longitude = -120.6
 """
+STORYBOARD = """run = "."
+zone = "America/Los_Angeles"
+units = "us"
+fps = 24
+dissolve = 0.5
+[[shots]]
+name = "title"
+picture = "card"
+seconds = 5.0
+caption = "Small"
+[[shots]]
+name = "growth"
+picture = "map"
+start = 2014-09-16T21:45:00.000-07:00
+end = 2014-09-16T21:47:00.000-07:00
+seconds = 20.0
+[[shots]]
+name = "place"
+camera = "globe"
+smoke = false
+start = 2014-09-17T04:45:00Z
+end = 2014-09-17T04:46:00Z
+seconds = 6.0
+[[omitted]]
+name = "ground"
+reason = "no name"
+"""
 SEEDS = {
     "geojson": [json.dumps(GEOJSON)],
     "kml": [KML],
@@ -137,6 +164,7 @@ SEEDS = {
     "csv": [FIRMS],
     "labels": [json.dumps({"features": [feature({"type": "Point", "coordinates": SQUARE[0]}, name="A")]})],
     "scene": ['run = "run"\n[render]\nresolution = [64, 36]\npasses = ["rgb", "thermal"]\n'],
+    "storyboard": [STORYBOARD],
     "run": [
         'start = 2014-09-16T21:45:00Z\ntimes_s = [0, 60, 120]\n[source]\nmodel = "a"\nassumptions = ["b"]\n',
     ],

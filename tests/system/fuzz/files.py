@@ -2,9 +2,9 @@
 
     .venv/bin/python tests/system/fuzz/files.py [--runs 100000] [--seconds 0] [--seed 0] [KIND ...]
 
-KIND is stations, geopackage, geojson, kml, gpx, track_kml, csv, labels, scene or run. A kind ends after so
-many seconds of processor time (0: never). A finding is another exception, a warning of NumPy, an impolite
-line, or 5 s of processor time; its file is left in build/fuzz/findings; exit status 1.
+KIND is stations, geopackage, geojson, kml, gpx, track_kml, csv, labels, scene, storyboard or run. A kind ends
+after so many seconds of processor time (0: never). A finding is another exception, a warning of NumPy, an
+impolite line, or 5 s of processor time; its file is left in build/fuzz/findings; exit status 1.
 """
 
 import argparse
@@ -34,6 +34,7 @@ from firetwin.shot.cameras import track
 from firetwin.shot.settings import scene_file
 from firetwin.stations import importers, measures, merging, page, reading
 from firetwin.stations.query import Query
+from firetwin.story import captions, story_file, timeline
 from station_files import write_usgs
 
 SECONDS = 5.0
@@ -78,6 +79,14 @@ def read_scene(path):
     scene_file.text(scene_file.read(path))
 
 
+def read_storyboard(path):
+    """Read a storyboard, and write its captions."""
+    story = story_file.read(path)
+    shown = captions.make(story, timeline.lay_out(story), readers.open(story.run))
+    captions.srt(shown, story.fps)
+    story_file.text(story)
+
+
 def read_run(path):
     """Open a run whose run.toml is damaged, and describe it."""
     run = readers.open(path.parent)
@@ -94,6 +103,7 @@ KINDS = {
     "csv": (".csv", read_csv),
     "labels": (".geojson", labels.read),
     "scene": (".toml", read_scene),
+    "storyboard": (".toml", read_storyboard),
     "run": (".toml", read_run),
 }
 
@@ -201,7 +211,8 @@ def work(kind, runs_, seconds, seed, folder):
     """Number of findings of a kind; each fault of one kind is left once."""
     end, read = KINDS[kind]
     rng, ends, originals, messages = np.random.default_rng(seed), Counter(), seeds(kind, folder), set()
-    if kind == "run":
+    if kind in ("run", "storyboard"):
+        (folder / "run.toml").write_text(small_run.RUN_TOML)
         for name, values in small_run.small_fields().items():
             small_run.write_field(folder, name, values, "npy")
     path = folder / ("run.toml" if kind == "run" else f"fuzzed{end}")

@@ -64,11 +64,17 @@ FIRES = {
 
 
 @pytest.fixture(autouse=True, scope="module")
-def wide_cells():
-    """Solve the coarse flow on wider cells, in a fraction of the time."""
+def few_candidates():
+    """Solve the coarse flow on wider cells, and try fewer cameras, in a fraction of the time."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(coarse, "COLUMNS", (600, 1200))
-        patch.setattr(flank, "_PLACES", 3)
+        patch.setattr(coarse, "_VOXELS", (1.0, 1.0))
+        patch.setattr(coarse, "_SPIN_UP", 0.3)
+        patch.setattr(coarse, "LEAD", 100.0)
+        patch.setattr(flank, "_PLACES", 2)
+        patch.setattr(chase, "_HEIGHTS", chase._HEIGHTS[::2])
+        patch.setattr(chase, "_SIDES", chase._SIDES[::2])
+        patch.setattr(overview, "_BEARINGS", overview._BEARINGS[::2])
         yield
 
 

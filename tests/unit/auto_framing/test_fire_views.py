@@ -1,5 +1,6 @@
 """Views of each kind of fire: cameras on unburned ground, flames in the picture, and nothing before them."""
 
+import functools
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -9,7 +10,7 @@ import pytest
 import whole_run
 from firetwin import cli
 from firetwin.auto_framing import fire_views
-from firetwin.auto_framing.fire_views import line_of_sight, places, placing, search
+from firetwin.auto_framing.fire_views import line_of_sight, local_fire, places, placing, search
 from firetwin.run import readers, sun
 from firetwin.scene.forest import stand
 from firetwin.shot import run_checks
@@ -28,11 +29,18 @@ FIRES = {
 
 @pytest.fixture(autouse=True, scope="module")
 def few_places():
-    """Try fewer places, and solve the smoke of one clip on wider cells, in a fraction of the time."""
+    """Try few places and cameras, grow plants near them, and solve smoke on wider cells: seconds in all."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(places, "_PLACES", 3)
-        patch.setattr(search, "_JUDGED", 1)
+        patch.setattr(placing, "_TRIED", 6)
+        patch.setattr(placing, "_TRIED_IN", 20)
+        patch.setattr(local_fire, "_WIDEST", 500.0)
+        patch.setattr(local_fire, "_PIXELS", 356)
+        patch.setattr(local_fire, "_PLANTS", (36.0, 700, 1_000_000))
+        patch.setattr(search, "find_clip", functools.partial(search.find_clip, judged=1))
         patch.setattr(coarse, "COLUMNS", (600, 1200))
+        patch.setattr(coarse, "_SPIN_UP", 0.3)
+        patch.setattr(coarse, "LEAD", 100.0)
         yield
 
 
@@ -138,11 +146,10 @@ def test_cameras_are_not_in_the_lee(views_of):
             assert side @ shot.wind <= 0.4 * np.hypot(*side) * np.hypot(*shot.wind)
 
 
-def _tree(place, height, radius):
-    one = np.ones(1)
-    return line_of_sight.Plants(
-        np.array([place]), height * one, radius * one, 0.1 * one, one, 0.1 * one, one, one
-    )
+def _trees(place, height, radius):
+    place = np.atleast_2d(place)
+    one = np.ones(len(place))
+    return line_of_sight.Plants(place, height * one, radius * one, 0.1 * one, one, 0.1 * one, one, one)
 
 
 @pytest.fixture(scope="module")
@@ -163,13 +170,32 @@ def test_a_tree_hides_what_is_behind_its_crown_and_not_what_is_over_or_beside_it
     eye, *points = _above(
         ridge, (300, 0, 10), (300, 100, 5), (300, 100, 60), (330, 100, 5), (300, 30, 5), (300, 55, 0.1)
     )
-    seen = line_of_sight.between_plants(eye, np.array(points), ridge, _tree([300.0, 50.0], 20.0, 4.0))
+    seen = line_of_sight.between_plants(eye, np.array(points), ridge, _trees([300.0, 50.0], 20.0, 4.0))
     assert seen.tolist() == [False, True, True, True, False]
+
+
+def test_plants_away_from_the_lines_of_sight_hide_nothing(ridge, monkeypatch):
+    """All trees of random woods are compared with those in a box along the lines."""
+    rng = np.random.default_rng(1)
+    low, high = [200.0, -100.0, 3.0], [400.0, 100.0, 9.0]
+    woods = [_trees(rng.uniform(low[:2], high[:2], (60, 2)), 20.0, 3.0) for _ in range(20)]
+    eyes = [_above(ridge, *rng.uniform(low, high, (2, 3))) for _ in woods]
+
+    def seen():
+        return [
+            line_of_sight.between_plants(eye, point + 0.1 * np.arange(9.0)[:, None], ridge, wood)
+            for wood, (eye, point) in zip(woods, eyes, strict=True)
+        ]
+
+    some = seen()
+    monkeypatch.setattr(line_of_sight.Plants, "before", lambda self, *_: self)
+    np.testing.assert_array_equal(some, seen())
+    assert 0.1 < np.mean(some) < 0.9
 
 
 def test_trees_that_are_cleared_around_a_camera_hide_nothing(ridge):
     eye, point = _above(ridge, (300, 0, 5), (300, 100, 5))
-    near = replace(_tree([300.0, 20.0], 20.0, 4.0), near=np.array([stand.CLEARING]))
+    near = replace(_trees([300.0, 20.0], 20.0, 4.0), near=np.array([stand.CLEARING]))
     assert line_of_sight.between_plants(eye, point[None], ridge, near)[0]
     assert not line_of_sight.between_plants(eye, point[None], ridge, replace(near, near=np.zeros(1)))[0]
 
@@ -206,3 +232,18 @@ def test_the_examples_are_four_kinds_by_day_and_night():
         assert tomllib.loads(file.read_text())["run"] == "../out/sample"
         assert settings.time.resolved().end is not None
         assert all(camera.rig.validate() is None for camera in settings.cameras)
+
+
+def test_the_near_view_is_of_the_tallest_kind_by_day_that_a_camera_sees(monkeypatch, tmp_path):
+    tried = []
+
+    def find_clip(survey, kind, light, judged):
+        tried.append((kind.name, light.words, *kind.distances))
+        return None
+
+    run = readers.open(whole_run.write(tmp_path / "run", cells=8))
+    monkeypatch.setattr(fire_views.places, "survey", lambda *_: None)
+    monkeypatch.setattr(fire_views.search, "find_clip", find_clip)
+    assert fire_views.find_near_view(run, tmp_path) is None
+    by_day = [("crown", 400.0), ("torching", 150.0), ("surface", 60.0), ("grass", 20.0)]
+    assert tried == [(name, light, away) for light in ("by day", "by night") for name, away in by_day]

@@ -5,10 +5,12 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+import whole_run
 from filmed import film
 from firetwin.errors import InputError
 from firetwin.render import fingerprint
 from firetwin.run import opening as runs
+from firetwin.run import times
 from firetwin.shot import run_checks
 from firetwin.shot.cameras import path, targets
 from firetwin.shot.cameras.rigs._key import CameraKey
@@ -26,6 +28,8 @@ KEYS = (
     CameraKey(0.0, 38.900, -120.599, 300.0, "ahead"),
     CameraKey(1.0, 38.908, -120.587, 300.0, "ahead"),
 )
+TURNING = ((-300.0, 0.0, 0.0), (100.0, 300.0, 900.0), (0.0, -300.0, 2000.0))
+"""Fires whose head changes its course: m east and north, and time, s."""
 
 
 @pytest.fixture
@@ -87,6 +91,20 @@ def test_a_chase_stays_behind_the_head_and_frames_it(run):
     assert above.min() >= 50.0
     turned = shot_of(run, Camera("chase", Chase(distance=200.0, side=90.0)), frames=61).paths[0]
     assert ((turned.position - turned.target)[10:-10, 1] < -150.0).all(), "its right is south"
+
+
+@pytest.mark.parametrize("seconds", [60.0, 3600.0])
+@pytest.mark.parametrize("side", [0.0, 100.0, 180.0])
+def test_a_chase_is_at_the_same_place_at_a_time_in_films_of_any_number_of_frames(tmp_path, seconds, side):
+    def hills(east, north):
+        return 60.0 * np.sin(east / 300.0) * np.cos(north / 200.0)
+
+    run = runs.open(whole_run.write(tmp_path / "run", cells=32, fires=TURNING, height=hills, seed=1))
+    chase = Camera("chase", Chase(distance=400.0, height=120.0, side=side))
+    start, end = (times.utc(run, at) for at in (0.0, seconds))
+    few, many = (film(run, chase, start=start, end=end, frames=frames).paths[0] for frames in (10, 100))
+    assert few.position == pytest.approx(many.position[::11], abs=1.0)
+    assert few.target == pytest.approx(many.target[::11], abs=1.0)
 
 
 def test_a_minimap_goes_along_north_up(run):

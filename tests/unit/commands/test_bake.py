@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from firetwin.errors import Error
 from firetwin.jobs import bake, worker
+from firetwin.progress import no_message, silent
 from firetwin.shot.source import ShotSource
 from scene_text import DRONE, NO_PLANTS, TINY
 
@@ -23,6 +24,12 @@ voxel_size = 400.0
 
 
 @pytest.fixture
+def here(monkeypatch):
+    """Bake in this process."""
+    monkeypatch.setattr(worker, "run", lambda work, *_, **__: work(progress=silent, tell=no_message))
+
+
+@pytest.fixture
 def choice(tmp_path, make_run):
     scene = tmp_path / "scene.toml"
     scene.write_text(SMOKY.format(run=make_run()) + NO_PLANTS + TINY + DRONE.format())
@@ -37,7 +44,7 @@ def test_baking_needs_no_blender(tmp_path, choice, monkeypatch):
     assert any(folder.glob("**/*.vdb"))
 
 
-def test_volumes_are_written_for_the_chosen_frames_and_all_cameras(choice):
+def test_volumes_are_written_for_the_chosen_frames_and_all_cameras(choice, here):
     """A .blend file has all cameras; `render` uses the volumes of each camera alone."""
     scene = Path(choice.scene)
     scene.write_text(
@@ -52,7 +59,7 @@ def test_volumes_are_written_for_the_chosen_frames_and_all_cameras(choice):
     ]
 
 
-def test_smoke_that_is_integrated_along_rays_needs_no_volumes(choice, monkeypatch):
+def test_smoke_that_is_integrated_along_rays_needs_no_volumes(choice, here):
     """Only the flow is solved, as a farm's stage bake does."""
     scene = Path(choice.scene)
     scene.write_text(scene.read_text().replace('draw = "volume"', "cell_budget = 0.1"))

@@ -1,6 +1,7 @@
 """The command line as a person uses it: output, streams, and exit status."""
 
 import contextlib
+import ctypes
 import io
 import json
 import subprocess
@@ -8,13 +9,16 @@ import sys
 import traceback
 from dataclasses import replace
 from datetime import datetime
+from pathlib import Path
 from types import SimpleNamespace
 
 import doors
 import numpy as np
 import pytest
+from few_cameras import *  # noqa: F403
 from firetwin import cli
 from firetwin.farm import command as farm
+from firetwin.shot import passes
 from firetwin.shot.settings import scene_file
 from small_run import RUN_TOML, small_fields
 
@@ -33,6 +37,11 @@ def firetwin(*arguments, cwd="."):
             traceback.print_exc()
             status = 1
     return SimpleNamespace(returncode=status, stdout=out.getvalue(), stderr=err.getvalue())
+
+
+def test_the_help_of_render_divides_names_of_passes_from_their_texts():
+    lines = firetwin("render", "--help").stdout.splitlines()
+    assert not [name for name in passes.helps() if not any(each.startswith(f"  {name} ") for each in lines)]
 
 
 def assert_one_line(result, status, *words):
@@ -136,7 +145,6 @@ def test_bad_usage_is_2(line):
 
 
 def test_the_exit_status_is_that_of_the_command():
-    assert subprocess.run([sys.executable, "-m", "firetwin", "info"], capture_output=True).returncode == 2
     command = [sys.executable, "-m", "firetwin", "info", "no such run"]
     result = subprocess.run(command, capture_output=True, text=True)
     assert_one_line(result, 1, "no such run")
@@ -229,6 +237,7 @@ def test_info_as_a_page_and_as_json(make_run):
     assert facts["times"]["count"] == 3
 
 
+@pytest.mark.usefixtures("few_cameras")
 def test_new_writes_a_scene_file_says_what_it_chose_and_overwrites_nothing(make_run, tmp_path):
     folder, out = make_run(), tmp_path / "scene.toml"
     result = firetwin("new", folder, "-o", out)
@@ -242,6 +251,7 @@ def test_new_writes_a_scene_file_says_what_it_chose_and_overwrites_nothing(make_
     assert out.read_text() == "mine"
 
 
+@pytest.mark.usefixtures("few_cameras")
 def test_new_films_the_moments_that_are_asked_for(make_run, tmp_path):
     folder, out = make_run(), tmp_path / "scene.toml"
     moments = "2014-09-16T21:45:30-07:00", "2014-09-16T21:46:30-07:00"
@@ -257,6 +267,7 @@ def test_new_films_the_moments_that_are_asked_for(make_run, tmp_path):
     assert "with its zone" in bad.stderr
 
 
+@pytest.mark.usefixtures("few_cameras")
 def test_a_run_folder_stands_for_a_scene_file_that_fits_it(make_run, tmp_path):
     """The scene file of `new` is written into the cache, and used."""
     folder = make_run()
@@ -379,3 +390,28 @@ def test_a_full_disk_is_named_with_its_remedy(names, capsys):
     found = capsys.readouterr().err
     assert "the disk is full; free some space" in found
     assert (names[-1] if names else "output or temporary files") in found
+
+
+def test_names_of_files_reach_a_pipe_of_windows_whole(make_run, tmp_path, monkeypatch):
+    """Its pipes have a code page, which lacks most letters."""
+    out = io.TextIOWrapper(io.BytesIO(), encoding="cp1252")
+    run = make_run(toml=RUN_TOML.replace("Small", "火事 ü"))
+    monkeypatch.setattr(sys, "platform", "win32")
+    monkeypatch.setattr(sys, "stdout", out)
+    assert cli.main(["info", str(run)]) == 0
+    out.flush()
+    assert "火事 ü" in out.buffer.getvalue().decode()
+
+
+@pytest.mark.parametrize("has_avx2", [True, False])
+def test_windows_without_avx2_is_named_with_its_remedy(monkeypatch, has_avx2):
+    kernel32 = SimpleNamespace(IsProcessorFeaturePresent=lambda number: has_avx2 and number == 40)
+    monkeypatch.setattr(ctypes, "windll", SimpleNamespace(kernel32=kernel32), raising=False)
+    monkeypatch.setattr(sys, "platform", "win32")
+    code = Path(cli.__file__).with_name("__init__.py").read_text()
+    with (
+        contextlib.nullcontext()
+        if has_avx2
+        else pytest.raises(ImportError, match="needs a processor with AVX2")
+    ):
+        exec(compile(code, "firetwin", "exec"), {})

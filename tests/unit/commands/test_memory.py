@@ -10,6 +10,7 @@ import child_work
 import pytest
 from firetwin import memory
 from firetwin.jobs import worker
+from firetwin.smoke import bake
 
 GLIBC = pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="the C library is not glibc")
 HOLES = """
@@ -57,6 +58,17 @@ def test_the_peak_stays_when_memory_is_free_again():
     assert abs(shrunk) < 5e6, "which the system counts roughly"
 
 
+def test_free_memory_is_a_part_of_all():
+    assert 1e7 < memory.free() < os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_a_bake_with_little_memory_does_one_frame_at_a_time(monkeypatch):
+    monkeypatch.setattr(os, "cpu_count", lambda: 64)
+    assert bake._parallel_frames(8) > 1
+    monkeypatch.setattr(memory, "free", lambda: 0)
+    assert bake._parallel_frames(8) == 1
+
+
 def test_other_systems_have_nothing_to_bound_and_no_way_to_give_back(monkeypatch):
     def confstr(name):
         raise ValueError("unrecognized configuration name")
@@ -76,4 +88,4 @@ def test_the_worker_has_few_arenas_unless_somebody_says_otherwise(monkeypatch):
     monkeypatch.delenv("MALLOC_ARENA_MAX", raising=False)
     assert worker.run(child_work.arenas, blender=False) == "1"
     monkeypatch.setenv("MALLOC_ARENA_MAX", "5")
-    assert worker.run(child_work.arenas, blender=False) == "5"
+    assert worker._environment(eevee=False)["MALLOC_ARENA_MAX"] == "5"

@@ -4,8 +4,8 @@ import sys
 
 import child_work
 import pytest
-from firetwin import progress
-from firetwin.jobs import render, worker
+from firetwin import output, progress
+from firetwin.jobs import first_picture, render, worker
 
 
 @pytest.fixture
@@ -69,6 +69,16 @@ def test_the_first_picture_of_a_film_is_told_once(tmp_path):
     assert told == [f"first picture: {first}; rendering continues"]
     assert shown[1] == (0, 3, "rendering", "")
     assert shown[-1] == (3, 3, "rendering", f"last: {last}")
+
+
+def test_the_first_picture_replaces_the_coarse_one(tmp_path):
+    coarse = tmp_path / first_picture.NAME
+    output.write_text(coarse, "coarse")
+    follow = render.picture_progress(tmp_path, progress.silent, progress.no_message)
+    follow(0, 1, "rendering")
+    assert coarse.exists()
+    follow(1, 1, "rendering", "drone/rgb/drone_rgb_000001.png")
+    assert not coarse.exists()
 
 
 def test_a_single_picture_is_no_film(tmp_path):

@@ -201,6 +201,19 @@ def test_a_camera_in_the_smoke_is_drawn_again(drawer, monkeypatch):
         placement.check_fire(scene, placement.Pose(downwind, level), time, lens, 400.0, allow_hidden=True)
 
 
+def test_a_camera_sees_its_target_through_the_air(plan, drawer):
+    """Towers, and others if no place has a clear view, may film thick air without fire."""
+    murky = Drawer(dataclasses.replace(plan, draws={**plan.draws, "visibility": Constant(0.01)}))
+    murky._scenes = drawer._scenes
+    index = next(n for n in range(1, 40) if murky.strata.of(n).kind == "fire")
+    with pytest.raises(InputError, match="most often for: beyond the visibility"):
+        murky.draw(index)
+    thick = next(
+        n for n in range(1, 80) if murky.strata.of(n).kind not in ("fire", "fog", "dust", "burned_out")
+    )
+    assert murky.draw(thick).visibility == 0.01
+
+
 def test_a_plan_whose_cameras_all_fail_names_the_reason(plan, drawer):
     under = dataclasses.replace(plan, draws={**plan.draws, "pitch_drone": Constant(60.0)})
     blind = Drawer(under)

@@ -99,6 +99,22 @@ def test_smoke_without_opacity_or_contrast_has_no_box(opacity, added, count):
     assert invisible == (shown.sum() if opacity > 0.05 and not count else 0)
 
 
+def test_a_veil_without_a_sure_part_is_doubtful_and_has_no_box():
+    """A threshold alone would cut splinters out of it."""
+    shown, slope = block((40, 140), (40, 240)), np.linspace(0.02, 0.075, 320)[None, :]
+    found, drawn = labels.label(smoky(plain_samples.plane(CAMERA), shown, 0.3, 90.0, slope), PLACE, 1)
+    assert (found.annotations, len(found.below_size), drawn.smoke.any()) == ((), 1, False)
+
+
+def test_the_mask_of_a_plume_has_no_hole_where_its_light_is_that_of_the_background():
+    shown = block((40, 140), (40, 240))
+    away = np.hypot(*np.mgrid[-90:150, -140:180]) - 30.0  # pixels from a circle within it
+    light = np.where(away > 0.0, 0.2, -0.2) * np.minimum(abs(away) / 20.0, 1.0)
+    found, drawn = labels.label(smoky(plain_samples.plane(CAMERA), shown, 0.6, 3000.0, light), PLACE, 1)
+    assert len(found.annotations) == 1
+    np.testing.assert_array_equal(drawn.smoke > 0, shown)
+
+
 def test_smoke_without_contrast_joins_the_parts_of_its_plume():
     near, far, between = (block((40, 100), columns) for columns in ((40, 90), (150, 200), (90, 150)))
     sample = plain_samples.plane(CAMERA)

@@ -4,8 +4,9 @@ import numpy as np
 import plain_samples
 import pytest
 import whole_run
-from firetwin.dataset import survey
+from firetwin.dataset import air, survey
 from firetwin.run import readers
+from firetwin.shot.light import sky
 from firetwin.shot.sections import TerrainSettings, Time
 from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
@@ -148,6 +149,19 @@ def test_smoke_cuts_a_front():
     assert across.max() == pytest.approx(320.0, abs=10.0)
     assert across.min() < 250.0
     assert seen_front(place, CAMERA, np.ones_like(smoky)) == []
+
+
+def test_haze_cuts_a_front():
+    """The visibility is 2 km: 2 % of light passes 2 km at the height of the camera."""
+    haze = 3.912 / 2000.0 / (sky.HAZE * (1.0 + sky.LOW_HAZE))
+    low = plain_samples.looking(-5.0, height=2.0)
+    place = plain_samples.flat_place(front=ring(plain_samples.flat_place()))
+    none = np.zeros((low.height, low.width), bool)
+    assert air.clearness(haze, np.zeros(3), np.array([[0.0, 2000.0, 0.0]]))[0] == pytest.approx(
+        0.02, rel=1e-3
+    )
+    assert len(survey.front_in_picture(place, low, none, haze, clearness=0.1)) == 1  # up to 900 m
+    assert survey.front_in_picture(place, low, none, 5.0 * haze, clearness=0.1) == []
 
 
 def test_the_edge_of_the_picture_cuts_a_front():

@@ -9,9 +9,9 @@ from urllib.parse import unquote
 import opentimelineio as otio
 import pytest
 from firetwin import cli, output, timecode
-from firetwin.edit import cut, edl, fcp_xml
-from firetwin.edit import otio as otio_file
-from firetwin.edit.cut import CameraFilm, Edit, Marker
+from firetwin.cuts import cut, edl, fcp_xml
+from firetwin.cuts import otio as otio_file
+from firetwin.cuts.cut import CameraFilm, Edit, Marker
 from firetwin.render import store
 from firetwin.render.picture import Picture, film
 from firetwin.render.store import Store
@@ -209,7 +209,7 @@ def test_a_rate_without_timecode_has_no_edl(rendered, tmp_path, capsys):
     output.write_text(out / "film.edl", "of an earlier edit")
     assert cli.main(["edit", scene, "--out", str(out)]) == 0
     omitted, removed = (line for line in capsys.readouterr().err.splitlines() if "film.edl" in line)
-    assert "at 12 frames per second; use film.otio or film.xml, or set [time] fps = 24" in omitted
+    assert "at 12 frames per second; use film.otio or film.xml, or set fps = 24" in omitted
     assert removed.endswith(f"removed {out / 'film.edl'} of an earlier edit")
     assert not (out / "film.edl").exists()
     whole = otio.adapters.read_from_file(str(out / "film.otio"))

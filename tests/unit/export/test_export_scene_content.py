@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from firetwin.export.scene_content import FlamePoints, Plants, Prototype
+from firetwin.export.scene_content import FlamePoints, Prototype
 
 
 @pytest.fixture
@@ -20,17 +20,6 @@ def test_leaves_face_away_from_the_trunk_and_bark_does_not(prototype):
     assert left[0] < -0.5
     np.testing.assert_allclose(np.linalg.norm([right, left], axis=1), 1.0, rtol=1e-6)
     assert sorted(np.abs(bark).tolist()) == [0.0, 0.0, 1.0]
-
-
-def test_a_plant_burns_from_its_time_on():
-    zero = np.zeros((3, 3), np.float32)
-    one = np.ones(3, np.float32)
-    from_then = np.array([100.0, 200.0, np.inf], np.float32)
-    living, burned = np.array([0, 1, 2]), np.array([7, 8, 9])
-    plants = Plants("Trees", zero, zero, zero, None, living, burned, from_then, from_then, one, one)
-    assert plants.prototype_at(99.0).tolist() == [0, 1, 2]
-    assert plants.prototype_at(100.0).tolist() == [7, 1, 2]
-    assert plants.prototype_at(1.0e9).tolist() == [7, 8, 2]
 
 
 def test_a_flame_is_lit_from_its_arrival_for_its_residence():

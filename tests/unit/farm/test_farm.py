@@ -124,8 +124,8 @@ def test_a_flow_is_solved_once_for_all_cameras_that_share_it(make_shot, monkeypa
 
 
 def test_a_long_film_of_many_cameras_is_planned_in_few_steps(make_shot):
-    """10,000 frames of 20 cameras: steps, not seconds, are counted, and the texts of all engines measured."""
-    shot = make_shot(10_000, {f"camera{k}": "" for k in range(20)}, chunk=48, smoke='method = "flow"')
+    """10,000 frames of 4 cameras: steps, not seconds, are counted, and the texts of all engines measured."""
+    shot = make_shot(10_000, {f"camera{k}": "" for k in range(4)}, chunk=48, smoke='method = "flow"')
     calls = 0
 
     def count(frame, event, argument):
@@ -137,8 +137,8 @@ def test_a_long_film_of_many_cameras_is_planned_in_few_steps(make_shot):
         farm_job = plan.make_job(shot, shot.settings.path)
     finally:
         sys.setprofile(None)
-    assert calls < 2_000_000  # most of them for the cameras' paths
-    assert len(farm_job.tasks) == 1 + 20 * 417
+    assert calls < 400_000  # most of them for the cameras' paths
+    assert len(farm_job.tasks) == 1 + 4 * 417
     out = shot.settings.path.parent / "out"
     plan.write(farm_job, out)
     assert plan.read(out) == farm_job
@@ -147,7 +147,7 @@ def test_a_long_film_of_many_cameras_is_planned_in_few_steps(make_shot):
         engine().write(batch)
     sizes = {path: path.stat().st_size for path in (out / "farm").rglob("*") if path.is_file()}
     assert len(sizes) >= 9
-    assert not {path: size for path, size in sizes.items() if size > 1_000_000}
+    assert not {path: size for path, size in sizes.items() if size > 150_000}
 
 
 def test_a_bundle_lists_every_asset_and_bakes_before_it_renders(make_shot, tmp_path):

@@ -17,12 +17,12 @@ EYE = (984.0, -2048.0, 300.0)
 
 
 def front_of(height=6.0, **changes):
-    """Flames along 12 m of x at the origin, on ground at its height."""
+    """Flames along two of their heights at the origin, on ground at its height."""
     nodes, corners, spacings = front(
         max(height, 1.0),
         half=(2.0, 3.0),
         GROUND=ORIGIN[2],
-        LENGTH=lambda x, y: height * (np.abs(x) < max(6.0, height)),
+        LENGTH=lambda x, y: height * (np.abs(x) < height),
     )
     patches = nodes, corners + ORIGIN[:2], spacings
     return flames(patches, 7.0, (0.0, 1.0), origin=EYE, soot=0.01, **changes)

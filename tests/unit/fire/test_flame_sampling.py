@@ -57,15 +57,29 @@ def test_a_distant_front_has_no_dots():
     assert (line[1:-1][lit] < 3.0 * beside[lit]).all()
 
 
-def near_view(time=3.0, length=LENGTH, wind=0.0, left=0.0, wide=48, high=24):
-    """Red light (h, w) of a front in parallel rays, four flame lengths wide, from `left` m along it."""
-    pixel = 4.0 * LENGTH / wide
-    across, up = np.meshgrid(left + (np.arange(wide) + 0.5) * pixel, (np.arange(high) + 0.5) * pixel)
+def near_view(time=3.0, length=LENGTH, wind=0.0, left=0.0, wide=48, high=24, part=1.0, pixel=1e-3):
+    """Red light (h, w) of a front in parallel rays, four lengths times `part` wide, from `left` m along it.
+
+    `pixel` is the size that pixels are said to have, over their distance.
+    """
+    size = part * 4.0 * LENGTH / wide
+    across, up = np.meshgrid(left + (np.arange(wide) + 0.5) * size, (np.arange(high) + 0.5) * size)
     origins = np.stack([across, np.full_like(up, -4.0 * LENGTH), up], axis=-1).reshape(-1, 3)
     ahead = np.broadcast_to([0.0, 1.0, 0.0], origins.shape)
-    burning = flames(front(LENGTH, half=(60.0, 3.0), LENGTH=length), time, (0.0, wind), pixel=1e-3)
+    burning = flames(front(LENGTH, half=(60.0, 3.0), LENGTH=length), time, (0.0, wind), pixel=pixel)
     found = volume.march([], origins, ahead, np.full((len(origins), 1), 8.0 * LENGTH), LIGHT, flames=burning)
     return found[:, 0, 0].reshape(high, wide)
+
+
+def test_near_flames_have_folds_that_are_smaller_than_cells_of_the_solved_fire():
+    """Pixels of a quarter of a cell show them, and pixels of a cell the same light without them."""
+    fine, cells = (near_view(wide=160, high=64, part=0.2, pixel=pixel) for pixel in (1e-3, 4.6e-3))
+
+    def folds(seen):
+        return np.abs(seen[:, 2:] - 2.0 * seen[:, 1:-1] + seen[:, :-2]).mean() / seen.mean()
+
+    assert folds(fine) > 1.12 * folds(cells)
+    assert fine.mean() == pytest.approx(cells.mean(), rel=0.12)
 
 
 def steps(pictures):
@@ -87,7 +101,7 @@ def test_frames_follow_one_another_without_a_jump_at_the_seam_of_the_loop():
 )
 def test_flames_change_evenly_with_length_and_wind(name, values):
     """Neither where the pattern doubles nor where another solved fire begins."""
-    change = steps([near_view(**{name: value}) for value in values])
+    change = steps([near_view(wide=32, high=16, **{name: value}) for value in values])
     assert change.max() < 0.15 * change.sum()
 
 
@@ -108,3 +122,21 @@ def test_a_front_repeats_neither_over_500_m_nor_over_30_s():
         if number > 0 or at > width
     ]
     assert np.max(scores) < 0.9
+
+
+def leading_edge(left, wide=80, deep=60):
+    """Places (wide,) of the edge of a front from above, within its lowest 0.15 lengths, in flame lengths."""
+    along, across = np.meshgrid(
+        left + (np.arange(wide) + 0.5) * 4.0 * LENGTH / wide, (np.arange(deep) / deep - 0.5) * 2.4 * LENGTH
+    )
+    origins = np.stack([along, across, np.full_like(along, 0.15 * LENGTH)], axis=-1).reshape(-1, 3)
+    down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
+    burning = flames(front(LENGTH, half=(60.0, 3.0)), pixel=1e-3)
+    found = volume.march([], origins, down, np.full((len(origins), 1), 0.14 * LENGTH), LIGHT, flames=burning)
+    lit = found[:, 0, 0].reshape(deep, wide) > 0.1
+    return across[np.argmax(lit, axis=0), 0][lit.any(axis=0)] / LENGTH
+
+
+def test_the_edge_of_a_front_is_no_straight_line():
+    spread = np.mean([np.std(leading_edge(left)) for left in (0.0, 50.0, 100.0)])
+    assert 0.1 < spread < 0.2

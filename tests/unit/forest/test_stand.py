@@ -89,10 +89,11 @@ def _peak(place, step):
     number = np.arange(1, int(side.min() / step)) * 1.0
     largest = 0.0
     for axis in (0, 1):
-        for other in range(0, 6):
-            waves = np.exp(2j * np.pi * np.outer(number, place[:, axis] / side[axis]))
-            waves *= np.exp(2j * np.pi * other * place[:, 1 - axis] / side[1 - axis])
+        waves = np.exp(2j * np.pi * np.outer(number, place[:, axis] / side[axis]))
+        across = np.exp(2j * np.pi * place[:, 1 - axis] / side[1 - axis])
+        for _ in range(6):  # waves across: 0 to 5
             largest = max(largest, float(np.max(np.abs(waves.sum(1)) ** 2 / len(place))))
+            waves *= across
     return largest
 
 
@@ -179,7 +180,7 @@ def test_a_thinned_stand_covers_as_much_ground(fuel):
     middle = FRAME.forward([38.9 + 0.000667 * 5.5], [-120.58 + 0.000855 * 5.5], [900.0])[0, :2]
     low, high = corners + middle
     whole = _cover(stand(field), low, high)
-    for kept in (0.6, 0.3, 0.1, 0.03):
+    for kept in (0.3, 0.03):
         thinned = stand(field, retained=np.full(field[0].shape, kept))
         assert np.all(thinned.width >= 1.0)
         assert _cover(thinned, low, high) == pytest.approx(whole, abs=0.04), kept

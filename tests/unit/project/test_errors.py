@@ -68,6 +68,14 @@ def test_faults_of_the_code_pass_a_reader(fault):
         raise fault
 
 
+def test_a_fault_that_names_its_file_is_a_sentence():
+    with (
+        pytest.raises(InputError, match="as a GeoTIFF: it is not recognized; export it again"),
+        errors.reading("a.tif", "GeoTIFF"),
+    ):
+        raise ValueError("'a.tif' not recognized.")
+
+
 def test_an_interruption_passes_a_reader():
     with pytest.raises(KeyboardInterrupt), errors.reading("a.gpkg"):
         raise KeyboardInterrupt

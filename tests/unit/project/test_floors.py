@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import graphlib
 import re
 import subprocess
@@ -76,24 +75,19 @@ def modules() -> dict[str, Path]:
 MODULES = modules()
 
 
+IMPORT = re.compile(r"^from (\.+)([\w.]*) import (\([^)]*\)|[^(\n]+)", re.MULTILINE)
+
+
 def imports(name: str) -> set[str]:
     """Modules of the package that a module imports as it loads: not within functions, not for types alone."""
     path = MODULES[name]
     package = name if path.stem == "__init__" else name.rpartition(".")[0]
     names: set[str] = set()
-    pending: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"))]
-    while pending:
-        node = pending.pop()
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-            continue
-        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
-            continue
-        if isinstance(node, ast.ImportFrom) and node.level:
-            above = package.split(".")[: len(package.split(".")) + 1 - node.level]
-            origin = ".".join(filter(None, (*above, node.module)))
-            inner = {f"{origin}.{alias.name}" for alias in node.names}
-            names |= {each if each in MODULES else origin for each in inner}
-        pending += ast.iter_child_nodes(node)
+    for dots, module, members in IMPORT.findall(path.read_text(encoding="utf-8")):
+        above = package.split(".")[: len(package.split(".")) + 1 - len(dots)]
+        origin = ".".join(filter(None, (*above, module)))
+        inner = {f"{origin}.{each}" for each in re.findall(r"(\w+)(?: as \w+)?", members)}
+        names |= {each if each in MODULES else origin for each in inner}
     return names
 
 

@@ -21,6 +21,7 @@ sys.path.append(str(Path(__file__).parents[2] / "helpers"))
 import bombs
 from file_readers import READERS, write_files
 from firetwin import memory
+from firetwin.data import sample
 from firetwin.dataset import finish, truth
 from firetwin.errors import Error
 from firetwin.escaped import escaped
@@ -30,6 +31,7 @@ from firetwin.jobs import assets, convert
 from firetwin.render import manifest
 from firetwin.run.models import grib2, raster
 from firetwin.shot.settings import Settings, toml_update
+from firetwin.story import story_file
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forks, and limits the memory")
 
@@ -78,6 +80,8 @@ MORE = {
     "projection of a raster": ("a.prj", lambda path: raster._prj(path)),
     "conversion before": ("run.toml", lambda path: convert._made_of(path.parent)),
     "known run": ("run.toml", _known_run),
+    "sample before": ("run.toml", lambda path: sample._refuse_strangers(path.parent)),
+    "storyboard": ("story.toml", story_file.read),
     "asset catalogue": (assets.CATALOGUE, lambda path: assets._refuse_strangers(path.parent)),
     "saved scene file": ("s.toml", lambda path: toml_update.save(Settings(path=path))),
     "attempt of a farm": ("farm/entries/00001-a.jsonl", lambda path: entries.attempts(path.parents[2])),

@@ -49,6 +49,17 @@ def test_changed_recipe_rebuilds_a_library(tmp_path):
     assert {name for name in before if before[name] != after[name]} == {"fast-float"}
 
 
+@pytest.mark.skipif(
+    shutil.which("x86_64-w64-mingw32-g++-posix") is None, reason="the keys contain its version"
+)
+def test_windows_has_the_same_libraries_by_other_recipes(monkeypatch):
+    linux = keys(PORTABLE)
+    monkeypatch.setenv("FIRETWIN_SYSTEM", "windows")
+    windows = keys(PORTABLE)
+    assert windows.keys() == linux.keys()
+    assert not {*windows.values()} & {*linux.values()}
+
+
 def test_bill_of_materials(sbom):
     libraries = sbom.read_sources(PORTABLE / "sources.txt", {"openexr", "zlib"})
     assert [library.name for library in libraries] == ["zlib", "openexr"]

@@ -11,13 +11,11 @@ sys.path.insert(0, str(ROOT / "tests"))
 import touched  # noqa: E402
 
 
-def near(changed, limit=3):
-    found = {}
-    for test in touched.tests():
-        distance = touched.distance(test, ROOT / changed)
-        if distance is not None and distance <= limit:
-            found[test.relative_to(ROOT / "tests").as_posix()] = distance
-    return found
+def near(changed):
+    every = {test: touched.distance(test, ROOT / changed) for test in touched.tests()}
+    return {
+        test.relative_to(ROOT / "tests").as_posix(): far for test, far in every.items() if far is not None
+    }
 
 
 @pytest.mark.parametrize(
@@ -47,7 +45,9 @@ def test_what_is_far_is_left_out():
 
 def test_most_modules_have_a_test_of_their_name_or_one_that_imports_them():
     modules = [path for path in (ROOT / "addon").rglob("*.py") if path.name != "__init__.py"]
-    alone = [path for path in modules if not near(path.relative_to(ROOT), limit=3)]
+    alone = [
+        path for path in modules if all(touched.distance(test, path) is None for test in touched.tests())
+    ]
     assert [path.name for path in alone] == ["__main__.py"]
 
 

@@ -42,38 +42,54 @@ def test_png_clamps(tmp_path):
     assert read_image(tmp_path / "a.png").ravel().tolist() == [0, 0, 1, 1]
 
 
-@needs_oiiotool
-@pytest.mark.parametrize("name", ["a.exr", "a.png"])
-def test_oiiotool_reads_the_same(tmp_path, name):
-    write_image(tmp_path / name, np.full((4, 6, 3), 0.25), {"Firetwin": "model time 60 s"})
-    command = ["oiiotool", "--info", "-v", "--stats", str(tmp_path / name)]
-    text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    assert "6 x    4, 3 channel" in text
-    if name.endswith("exr"):
-        assert "float openexr" in text
-        assert '"zip"' in text
-        assert 'Firetwin: "model time 60 s"' in text
-        assert "Stats Avg: 0.250000 0.250000 0.250000" in text
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """A folder of pictures that oiiotool wrote: `grey` and `noise` in each format; and `own.exr`."""
+    if not shutil.which("oiiotool"):
+        pytest.skip("needs openimageio-tools")
+    folder, words = tmp_path_factory.mktemp("written"), ["oiiotool"]
+    write_image(folder / "grey.png", np.full((4, 6, 3), 0.5))
+    for name in ("noise.png", "own.exr"):
+        write_image(folder / name, np.random.default_rng(12).random((64, 64, 3)))
+    for name in ("grey", "noise"):
+        words += [
+            f"{name}.png",
+            *(part for kind in ("tif", "jpg", "exr") for part in ("-o", f"{name}.{kind}")),
+        ]
+        words += ["-o", f"{name}_again.png"]
+    subprocess.run(words, cwd=folder, check=True)
+    return folder
+
+
+WRITTEN = (".tif", ".jpg", "_again.png", ".exr")
 
 
 @needs_oiiotool
-@pytest.mark.parametrize("name", ["b.tif", "b.jpg", "b.png", "b.exr"])
-def test_reads_what_oiiotool_writes(tmp_path, name):
-    write_image(tmp_path / "a.png", np.full((4, 6, 3), 0.5))
-    subprocess.run(["oiiotool", str(tmp_path / "a.png"), "-o", str(tmp_path / name)], check=True)
-    result = read_image(tmp_path / name)
+def test_oiiotool_reads_the_same(tmp_path):
+    for name in ("a.png", "a.exr"):
+        write_image(tmp_path / name, np.full((4, 6, 3), 0.25), {"Firetwin": "model time 60 s"})
+    command = ["oiiotool", "--info", "-v", "--stats", "a.png", "a.exr"]
+    text = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+    assert text.count("6 x    4, 3 channel") == 2
+    exr = text[text.index("a.exr") :]
+    assert "float openexr" in exr
+    assert '"zip"' in exr
+    assert 'Firetwin: "model time 60 s"' in exr
+    assert "Stats Avg: 0.250000 0.250000 0.250000" in exr
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_reads_what_oiiotool_writes(written, name):
+    result = read_image(written / f"grey{name}")
     assert result.shape == (4, 6, 3)
     np.testing.assert_allclose(result, 128 / 255, atol=1.5 / 255)
 
 
-@needs_oiiotool
-@pytest.mark.parametrize("name", ["b.tif", "b.jpg", "b.png", "b.exr"])
-def test_decoding_bytes_equals_reading_the_file(tmp_path, name):
-    write_image(tmp_path / "a.png", np.random.default_rng(13).random((40, 60, 3)))
-    subprocess.run(["oiiotool", str(tmp_path / "a.png"), "-o", str(tmp_path / name)], check=True)
-    decoded = decode_image((tmp_path / name).read_bytes())
+@pytest.mark.parametrize("name", WRITTEN)
+def test_decoding_bytes_equals_reading_the_file(written, name):
+    decoded = decode_image((written / f"noise{name}").read_bytes())
     assert decoded.dtype == np.float32
-    np.testing.assert_array_equal(decoded, read_image(tmp_path / name))
+    np.testing.assert_array_equal(decoded, read_image(written / f"noise{name}"))
 
 
 def test_an_encoded_png_equals_the_written_file(tmp_path, pixels):
@@ -122,21 +138,13 @@ def test_damaged_images_are_errors(tmp_path, name):
         read_image(tmp_path / name)
 
 
-def encoded(name, tmp_path):
-    pixels = np.random.default_rng(12).random((64, 64, 3))
-    write_image(tmp_path / "a.png", pixels)
-    if name == "a.exr":
-        write_image(tmp_path / name, pixels)
-    elif name != "a.png":
-        subprocess.run(["oiiotool", str(tmp_path / "a.png"), "-o", str(tmp_path / name)], check=True)
-    return (tmp_path / name).read_bytes()
+FILES = ("noise.png", "own.exr", "noise.tif", "noise.jpg")
 
 
-@needs_oiiotool
-@pytest.mark.parametrize("name", ["a.png", "a.exr", "a.tif", "a.jpg"])
+@pytest.mark.parametrize("name", FILES)
 @pytest.mark.parametrize("part", [0.001, 0.02, 0.5, 0.95])
-def test_truncated_bytes_decode_like_the_truncated_file(tmp_path, name, part):
-    content = encoded(name, tmp_path)
+def test_truncated_bytes_decode_like_the_truncated_file(written, tmp_path, name, part):
+    content = (written / name).read_bytes()
     content = content[: max(8, int(part * len(content)))]
     (tmp_path / "cut").write_bytes(content)
     results = []
@@ -150,14 +158,13 @@ def test_truncated_bytes_decode_like_the_truncated_file(tmp_path, name, part):
         assert isinstance(memory, core.InputError)
         assert memory.reason.startswith("cannot be read")
     else:  # libjpeg fills the lost rows of a JPEG
-        assert name == "a.jpg"
+        assert name == "noise.jpg"
         np.testing.assert_array_equal(memory, file)
 
 
-@needs_oiiotool
-@pytest.mark.parametrize("name", ["a.png", "a.exr", "a.tif", "a.jpg"])
-def test_damaged_bytes_give_pixels_or_one_error(tmp_path, name):
-    content, random = encoded(name, tmp_path), np.random.default_rng(14)
+@pytest.mark.parametrize("name", FILES)
+def test_damaged_bytes_give_pixels_or_one_error(written, name):
+    content, random = (written / name).read_bytes(), np.random.default_rng(14)
     for _ in range(200):
         damaged = bytearray(content)
         for place in random.integers(4, min(len(content), 2000), 4):

@@ -1,6 +1,9 @@
 """Worker processes: their pipe, and disks that are full or read-only."""
 
 import errno
+import os
+import signal
+import stat
 import tempfile
 from functools import partial
 from pathlib import Path
@@ -33,6 +36,22 @@ def test_dataclasses_and_arrays_cross_both_ways_beside_output_of_libraries(monke
     np.testing.assert_array_equal(back.rotation, sent.rotation)
 
 
+def test_a_process_does_several_works_until_one_fails(monkeypatch):
+    child_work.importable(monkeypatch)
+    with worker.Worker(blender=False) as process:
+        first, again = (process.run(child_work.number) for _ in range(2))
+        with pytest.raises(InputError):
+            process.run(child_work.open_missing)
+        after = process.run(child_work.number)
+        process._child.kill()
+        process._child.wait()
+        last = process.run(child_work.number)
+    assert first == again
+    assert len({first, after, last}) == 3
+    with pytest.raises(ProcessLookupError):
+        os.kill(last, 0)
+
+
 @pytest.mark.parametrize(("code", "kind"), [(errno.ENOSPC, FullDiskError), (errno.EROFS, InputError)])
 def test_a_log_that_cannot_be_written_is_one_line(monkeypatch, code, kind):
     def fail(**_):
@@ -49,3 +68,23 @@ def test_a_log_stays_on_a_disk_that_became_read_only(monkeypatch, tmp_path):
 
     monkeypatch.setattr(Path, "unlink", fail)
     worker._remove(tmp_path / "log")
+
+
+def test_libraries_do_not_meet_the_pipe_of_calls(monkeypatch):
+    """A library that Windows loads asks for the kind of stdin, and would wait for the end of a read."""
+    child_work.importable(monkeypatch)
+    assert worker.run(child_work.kind_of_stdin, blender=False) != stat.S_IFIFO
+
+
+def test_ctrl_break_of_windows_ends_as_sigterm_does(monkeypatch):
+    monkeypatch.setattr(signal, "SIGBREAK", signal.SIGINT, raising=False)
+    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGINT)}
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        worker.end_on_sigterm()
+        with pytest.raises(SystemExit) as ended:
+            signal.raise_signal(signal.SIGINT)
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    assert ended.value.code == 128 + signal.SIGINT

@@ -48,6 +48,16 @@ def test_rows_are_read_with_stored_columns_alone(make):
     assert read(path, "t") == [(1, "x"), (2, b"\0\xff")]
 
 
+def test_a_damaged_list_of_tables_does_not_ask_for_memory(tmp_path):
+    """SQLite may take the length of a damaged row for memory that it lacks."""
+    path = write(tmp_path / "s.gpkg", [(1, "A", 39.0, -120.5, "fire station", "user")])
+    whole = path.read_bytes()
+    end = whole.index(b"e_station_geom_parentrtree")
+    path.write_bytes(whole[: end - 62] + b"\xff" * 62 + whole[end:])
+    with pytest.raises(InputError, match="is damaged"):
+        reading.read(path)
+
+
 def test_a_generated_column_of_a_station_file_does_not_fill_the_memory(tmp_path):
     path = write(tmp_path / "s.gpkg", [(1, "A", 39.0, -120.5, "fire station", "user")])
     with closing(sqlite3.connect(path)) as base:

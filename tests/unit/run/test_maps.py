@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from firetwin.run import areas, blocks, content, fact_cache, info, maps, thumbnails
+from firetwin.run import areas, blocks, content, fact_cache, info, maps, measure, thumbnails
 from firetwin.run import opening as runs
 from PIL import Image
 from small_run import FX, FY, RUN_TOML, small_fields
@@ -193,3 +193,19 @@ def test_where_nothing_can_be_remembered_facts_are_found(settled):
     (Path(settled.path) / fact_cache.NAME).mkdir()
     assert info.gather(settled, ZONE)["name"] == "Small"
     assert list((Path(settled.path)).glob(".*.part*")) == []
+
+
+def test_the_scale_bar_is_a_round_length():
+    assert [measure.round_length(most) for most in (730.0, 2100.0, 19999.0, 1.0, 0.6)] == pytest.approx(
+        [500.0, 2000.0, 10000.0, 1.0, 0.5]
+    )
+
+
+def test_bounds_of_marked_cells_are_their_middle_and_size():
+    latitude, longitude = np.linspace(39.0, 38.9, 11), np.linspace(-120.6, -120.5, 11)
+    marked = np.zeros((11, 11), bool)
+    marked[2:5, 6:9] = True
+    north, east, (wide, tall) = areas.bounds(latitude, longitude, marked)
+    assert (north, east) == pytest.approx((38.97, -120.53))
+    assert (wide, tall) == pytest.approx((1733.2, 2220.2), rel=1e-3)  # 0.02 degrees each
+    assert areas.bounds(latitude, longitude, ~marked & marked)[:2] == pytest.approx((38.95, -120.55))

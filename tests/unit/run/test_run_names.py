@@ -60,19 +60,24 @@ def test_errors_name_the_file(odd):
         read_grid(odd / "none.txt")
 
 
-@pytest.mark.parametrize("arguments", [["info"], ["info", "--json"]])
-@pytest.mark.parametrize("encoding", ["utf-8", "ascii"])
-def test_the_command_tells_about_it(odd, arguments, encoding):
-    command = [sys.executable, "-m", "firetwin", *arguments, os.fsencode(odd)]
+def info(odd, *options, encoding="utf-8"):
+    command = [sys.executable, "-m", "firetwin", "info", *options, os.fsencode(odd)]
     environment = os.environ | {"PYTHONIOENCODING": f"{encoding}:strict"}
-    result = subprocess.run(command, capture_output=True, timeout=120, env=environment)
-    assert result.returncode == 0, result.stderr
-    assert (b"run\xff" if "--json" not in arguments else rb"run\udcff") in result.stdout
+    return subprocess.run(command, capture_output=True, timeout=120, env=environment)
 
 
+@pytest.mark.parametrize("odd", ["npy"], indirect=True)
+def test_the_command_tells_about_it(odd):
+    for encoding, options, said in (("utf-8", (), b"run\xff"), ("ascii", ("--json",), rb"run\udcff")):
+        result = info(odd, *options, encoding=encoding)
+        assert result.returncode == 0, result.stderr
+        assert said in result.stdout
+
+
+@pytest.mark.parametrize("odd", ["text"], indirect=True)
 def test_the_command_names_it_in_errors(odd):
+    assert b"run\xff" in info(odd, encoding="ascii").stdout
     (odd / "run.toml").unlink()
-    command = [sys.executable, "-m", "firetwin", "info", os.fsencode(odd)]
-    result = subprocess.run(command, capture_output=True, timeout=120)
+    result = info(odd)
     assert result.returncode == 1
     assert b"run\\xff/run.toml: the file is missing" in result.stderr

@@ -110,7 +110,7 @@ MISTAKES = [
     ("frames = 10", "fps = 0\nframes = 10", 6, 1, ["time.fps"]),
     ("frames = 10", 'zone = "America/Los_Angles"', 6, 1, ["time zone", "America/Los_Angeles"]),
     ("T14:30:00-07:00", "T14:30:00", 4, 1, ["no zone", "Z"]),
-    ("2014-09-17T14:30:00-07:00", "0001-01-01T00:00:00+01:00", 4, 1, ["time.start", "years 1 to 9999"]),
+    ("2014-09-17T14:30:00-07:00", "0001-01-01T00:00:00+01:00", 4, 1, ["time.start", "years 1000 to 9998"]),
     ("2014-09-17T14:30:00-07:00", "2014-09-17", 4, 1, ["a date and time such as"]),
     ("2014-09-18T", "2014-09-16T", 5, 1, ["later than time.start"]),
     ("frames = 10", "frames = 10\nspeed = 0", 7, 1, ["time.speed", "from 0.001"]),

@@ -209,6 +209,19 @@ def test_going_on_from_a_state_is_going_on(water):
     assert other.time == pytest.approx(one.time)
 
 
+def test_restored_smoke_moves_where_none_was():
+    """The solver skips rows without smoke; a restored state fills them."""
+    used, fresh = (box(wind=(6.0, 2.0)) for _ in range(2))
+    used.step(5.0)
+    state = used.state()
+    state["smoke"][8:12, 10:14, 12:18] = 1e-3
+    for solver in (used, fresh):
+        solver.restore(state)
+        solver.step(5.0, 2)
+    assert used.state()["smoke"].max() > 1e-4
+    assert same(used.state(), fresh.state())
+
+
 def test_warm_air_is_driven_up_a_slope():
     rise = 0.2 * 100.0 * np.arange(32.0) * np.ones((24, 1))
     solver = box(ground=rise, lapse=0.0, top=3000.0)

@@ -139,6 +139,17 @@ def test_optical_depth_is_the_logarithm_of_what_comes_through():
     )
 
 
+def test_smoke_is_opaque_where_its_optical_depth_reaches_the_limit():
+    thin, thick = bricks(np.full((40, 20, 20), 0.004)), bricks(np.full((40, 20, 20), 0.016))
+    start, toward, _ = along_x([FAR])
+    block = 8 * 10.0  # m, which counts as a whole
+    for layers, extinction in (([thin], 0.004), ([thin, thick], 0.02)):
+        away = volume.opaque_distance(layers, start, toward, 0.5, 1.2)[0]
+        assert 0.0 <= away - (100.0 + 1.2 / extinction) < block
+    assert np.isinf(volume.opaque_distance([thin], start, toward, 0.5, 2.0)).all(), "1.56 in all"
+    assert np.isinf(volume.opaque_distance([thin], start, [[-1.0, 0.0, 0.0]], 0.5, 0.1)).all()
+
+
 def warmth(kelvin=300.0, lapse=0.0, absorption=0.1):
     return {
         "kelvin": np.full((3, 3), kelvin),

@@ -77,3 +77,19 @@ def test_a_time_lapse_has_sub_frames_and_an_ordinary_film_has_none(film):
     slow = sources.select(film(shutter=0.0))
     assert (slow.parts, slow.snapshot(3)) == (1, 3)
     assert slow.flow.key() != source.flow.key()
+
+
+def test_a_preview_of_a_time_lapse_has_sub_frames_and_one_domain(film):
+    shot = film()
+    smoke = replace(shot.settings.smoke, method="preview")
+    lapse, plain = (
+        sources.select(
+            shot.with_settings(
+                replace(shot.settings, smoke=smoke, time=replace(shot.settings.time, shutter=exposure))
+            )
+        )
+        for exposure in (2.0, 0.0)
+    )
+    assert [len(each.domains) for each in (lapse, plain)] == [1, 2]
+    assert len(shutter.moments(lapse.bricks(2))) == 7
+    assert lapse.domains[0].cells < 4 * plain.domains[0].cells

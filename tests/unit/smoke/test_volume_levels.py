@@ -90,10 +90,10 @@ def test_mass_of_a_smooth_field_is_kept(tmp_path):
 
 def test_no_smoke_under_the_ground_or_over_the_top(tmp_path):
     path = tmp_path / "all.vdb"
-    write(path, np.full(heights().shape, 1e-5, np.float32), voxel=100.0)
+    write(path, np.full(heights().shape, 1e-5, np.float32))
     grids = read(path)
     dilution, low = grids["dilution"]
-    latitude, longitude, height = place(low, dilution.shape, 100.0)
+    latitude, longitude, height = place(low, dilution.shape, 150.0)
     row = (latitude - LATITUDE[0]) / 0.0033
     column = (longitude - LONGITUDE[0]) / 0.0042
     within = (row > 0) & (row < 30) & (column > 0) & (column < 30)

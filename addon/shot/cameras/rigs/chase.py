@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from ._view import View
 
 _RIDGE_MARGIN = 40.0  # m that the line of sight clears ridges by at most
+_STILL = 0.005  # m, motion of the head from sample to sample of its path, below which it has no new course
 
 
 @dataclass(frozen=True)
@@ -46,21 +47,23 @@ class Chase(LensRig):
 
     def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Path at an offset from the head, which is smoothed over a fifth of the filming, looking at it."""
-        target = targets.follow("head", ground, filming.frames.times, self.target_height)
-        away = targets.smoothed(flight.heading(target)) + np.radians(self.side)
+        times = filming.frames.times
+        target = targets.follow("head", ground, targets.samples(times), self.target_height)
+        away = targets.smoothed(flight.heading(target, _STILL)) + np.radians(self.side)
         position = target + self.distance * np.stack([np.sin(away), np.cos(away), 0.0 * away], axis=-1)
         position[:, 2] = targets.smoothed(ground.up(position[:, 0], position[:, 1])) + self.height
         short = flight.short(ground, position, np.full(len(away), self.clearance))
         margin = min(_RIDGE_MARGIN, 0.5 * self.target_height)  # a low aim would raise it over flat ground
         hidden = path.hidden(ground, position, target, margin)
         position[:, 2] += path.eased(np.maximum(short, hidden) if self.over_ridges else short)
+        position, target = (targets.at_frames(each, times) for each in (position, target))
         return Path(
             camera,
             position,
             path.look(position, target),
             target,
             self.half(camera, filming),
-            hidden=hidden,
+            hidden=targets.at_frames(hidden[:, None], times)[:, 0],
             sensor=self.sensor_width,
         )
 

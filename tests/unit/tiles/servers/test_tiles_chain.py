@@ -10,12 +10,12 @@ import signal
 import threading
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import geodesy
 import numpy as np
 import pytest
 import tile_files as made
+from decoding import *  # noqa: F403
 from firetwin.data import sample
 from firetwin.errors import Error, InputError
 from firetwin.jobs import worker
@@ -33,6 +33,7 @@ from lying_server import Clock, Reply, serving
 FRESH = {"Cache-Control": "private, max-age=3600", "ETag": '"1"'}
 SCENE = """run = "run"
 time = { frames = 1 }
+terrain = { near_radius = 0.0, apron = 3000.0 }
 render = { resolution = [320, 180] }
 [[cameras]]
 name = "drone"
@@ -51,7 +52,9 @@ def ground(tmp_path_factory):
     sample.write(folder / "run", 2)
     (folder / "scene.toml").write_text(SCENE)
     shot = ShotSource(scene=str(folder / "scene.toml")).shot()
-    make.run(shot, make.TilesRequest(folder / "set", levels=2, credit="Somebody", geoid=-24.9))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(make.Maker, "_write_terrain", lambda _, *place: "{}/{}_{}.glb".format(*place))
+        make.run(shot, make.TilesRequest(folder / "set", levels=2, credit="Somebody", geoid=-24.9))
     text = (folder / "set" / "tileset.json").read_bytes()
     return shot, {"/t/tileset.json": text} | dict(squares(json.loads(text)["root"]))
 
@@ -71,20 +74,27 @@ def squares(tile):
         yield from squares(child)
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def server():
     with serving() as each:
         yield each
 
 
+@pytest.fixture(scope="module")
+def shared_leaf():
+    """Path of a leaf and its cut, once a test has them."""
+    return []
+
+
 class Chain:
     """From a server's tileset to a cut."""
 
-    def __init__(self, ground, server, folder):
+    def __init__(self, ground, server, folder, shared_leaf):
         self.shot, self.files = ground
-        self.server, self.folder = server, folder
+        self.server, self.folder, self.shared_leaf = server, folder, shared_leaf
         self.query = ""
-        server.answers |= {path: Reply(200, data, FRESH) for path, data in self.files.items()}
+        server.asked.clear()
+        server.answers = {path: Reply(200, data, FRESH) for path, data in self.files.items()}
 
     def shot_of(self):
         tiles = replace(
@@ -103,14 +113,14 @@ class Chain:
 
     def leaf(self):
         """Path of one of the finest tiles that the shot shows, and the whole cut."""
-        cut, _ = self.make()
-        assert not cut.missing
-        assert len(cut.tiles) > 4
-        paths = [each for each in self.server.asked if each.endswith(".glb")]
-        leaf = max(paths)
-        self.server.asked.clear()
-        self.forget()
-        return leaf, cut
+        if not self.shared_leaf:
+            cut, _ = self.make()
+            assert not cut.missing
+            assert len(cut.tiles) > 4
+            self.shared_leaf += [max(each for each in self.server.asked if each.endswith(".glb")), cut]
+            self.server.asked.clear()
+            self.forget()
+        return self.shared_leaf
 
     def forget(self):
         """Empty all caches."""
@@ -126,19 +136,9 @@ def clock(monkeypatch):
     return clock
 
 
-IN_PROCESSES = decode.run
-
-
-def here(contents, progress):
-    """Decode in this process, which takes a tenth of the time; tests of decoders start some."""
-    left = [each for each in contents if decoded.read_summary(Path(each.out)) is None]
-    return decode.in_process(left, progress, print)
-
-
 @pytest.fixture
-def chain(ground, server, tmp_path, monkeypatch, clock):
+def chain(ground, server, shared_leaf, tmp_path, monkeypatch, clock, decoded_here):
     monkeypatch.setattr(tile_heights.np, "savez_compressed", np.savez)  # compressing takes most of the time
-    monkeypatch.setattr(decode, "run", here)
     monkeypatch.setattr(tile_heights, "_MOST", 200)  # points of heights, which nothing here looks at
 
     def network(access):
@@ -146,7 +146,7 @@ def chain(ground, server, tmp_path, monkeypatch, clock):
         return Network(access.online, access.setting, *hosts, cache=tmp_path / "user")
 
     monkeypatch.setattr(access.TileAccess, "network", network)
-    return Chain(ground, server, tmp_path)
+    return Chain(ground, server, tmp_path, shared_leaf)
 
 
 def missing(chain, leaf, why, whole, strict=False):
@@ -187,7 +187,7 @@ def test_a_file_beside_a_tile_that_is_not_there(chain):
 
 def swapped(monkeypatch, leaf, file):
     """Let decoders, in separate processes, read another file in place of a tile's."""
-    monkeypatch.setattr(decode, "run", IN_PROCESSES)
+    monkeypatch.setattr(decode, "worker", worker)
     before = source.TileSource._content
 
     def content(source, number):
@@ -237,7 +237,7 @@ def test_a_decoder_that_dies_loses_its_tile_alone(chain, monkeypatch, pipe):
 
 def test_a_decoder_over_its_memory_loses_its_tile_alone(chain, monkeypatch):
     leaf, whole = chain.leaf()
-    monkeypatch.setattr(decode, "_MEMORY", 1_500_000_000)
+    monkeypatch.setattr(decode, "_MEMORY", 300_000_000)
     swapped(monkeypatch, leaf, "/dev/zero")
     cut, _ = chain.make()
     (reason,) = cut.missing
@@ -327,7 +327,7 @@ def test_a_film_is_continued_with_its_tiles_while_the_server_has_others(chain):
     chain.make()
     assert selection._can_keep(shot, keep=True)
     assert not selection._can_keep(shot, keep=False)
-    (whole.folder / whole.tiles[0]).unlink()
+    (chain.folder / "cache" / "tiles" / whole.tiles[0]).unlink()
     assert not selection._can_keep(shot, keep=True)
     chain.forget()
     chain.server.answers[leaf] = Reply(404)
