@@ -10,7 +10,6 @@ from firetwin_core import volume
 from numpy.typing import NDArray
 
 from ..geometry.grids import dilate
-from ..scene.cell_distances import NEVER
 from ..smoke import shutter
 from . import flame_distance, rays
 
@@ -38,7 +37,7 @@ def measure(
         volume.opaque_distance(moment, lines.origins, flat, _STEP, depth)
         for _, moment in shutter.moments(smoke)
     ]
-    far = np.minimum(np.max(away, axis=0), np.float32(NEVER)).reshape(lines.directions.shape[:2])
+    far = np.max(away, axis=0).reshape(lines.directions.shape[:2])
     finer = _CELL // flame_distance.CELL
     wide = dilate(far, _AROUND).repeat(finer, axis=0).repeat(finer, axis=1)
     height, width = rays.cells(scene, flame_distance.CELL)

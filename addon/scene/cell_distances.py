@@ -16,8 +16,6 @@ from ..blender import nodes, owned
 from ..blender.owned import Stage
 
 AOV = "Firetwin Before Flames"
-NEVER = 1.0e12
-"""Distance of smoke that is not opaque, m."""
 _GROUP, _IMAGE = "cell distances", "Cell Distances"
 _HIDDEN_LIGHT = 0.05
 """Radiance of hidden surfaces. It is similar to lit ones, as the denoiser would preserve an edge."""
@@ -47,7 +45,7 @@ def set_distances(
     flames
         0, or None: no flames.
     smoke
-        `NEVER`, or None: not opaque.
+        Infinite, or None: not opaque.
     """
     group = stage.root.get(_GROUP)
     if group is None:
@@ -55,7 +53,7 @@ def set_distances(
     height, width = next((each.shape for each in (flames, smoke) if each is not None), (1, 1))
     pixels = np.zeros((height, width, 4), np.float32)
     pixels[..., 0] = 0.0 if flames is None else flames[::-1]
-    pixels[..., 1] = NEVER if smoke is None else smoke[::-1]
+    pixels[..., 1] = 0.0 if smoke is None else 1.0 / smoke[::-1]
     image = group.nodes[_IMAGE].image
     if tuple(image.size) != (width, height):
         image.scale(width, height)
@@ -64,7 +62,11 @@ def set_distances(
 
 
 def _shader_group(stage: Stage) -> bpy.types.NodeTree:
-    """Create the node group and its image once per scene."""
+    """Create the node group and its image once per scene.
+
+    The image has the distance of flames and 1 / the distance of smoke: a black image, as Blender shows one that
+    a saved scene lost, hides nothing.
+    """
     if stage.root.get(_GROUP) is not None:
         return stage.root[_GROUP]
     group = owned.mark(bpy.data.node_groups.new(f"Firetwin {_IMAGE}", "ShaderNodeTree"))
@@ -73,13 +75,12 @@ def _shader_group(stage: Stage) -> bpy.types.NodeTree:
         group.interface.new_socket(name, in_out="OUTPUT", socket_type="NodeSocketFloat")
     tree = nodes.Tree(group)
     image = owned.mark(bpy.data.images.new(f"Firetwin {_IMAGE}", 1, 1, float_buffer=True, is_data=True))
-    image.pixels.foreach_set((0.0, NEVER, 0.0, 0.0))
     window = tree.output("ShaderNodeTexCoord", name="Window")
     texture = tree.node(
         "ShaderNodeTexImage", {"Vector": window}, image=image, interpolation="Closest", extension="EXTEND"
     )
     texture.name = _IMAGE
-    flames, smoke, _ = tree.separate(tree.pick(texture, "Color"))
+    flames, near_smoke, _ = tree.separate(tree.pick(texture, "Color"))
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
-    tree.finish({"Before": distance < flames, "Hidden": distance > smoke})
+    tree.finish({"Before": distance < flames, "Hidden": distance * near_smoke > 1.0})
     return tree.node_tree

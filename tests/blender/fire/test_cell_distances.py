@@ -17,9 +17,9 @@ def test_surfaces_read_the_distances_of_flames_and_smoke_from_an_image(stage):
     assert tuple(image.size) == (3, 2)
     pixels = np.array(image.pixels[:]).reshape(2, 3, 4)
     assert pixels[..., 0].tolist() == flames[::-1].tolist(), "rows of images begin at the bottom"
-    assert (pixels[..., 1] == 70.0).all()
+    assert (pixels[..., 1] == np.float32(1.0 / 70.0)).all()
     cell_distances.set_distances(stage)
-    assert np.array(image.pixels[:2]).tolist() == [0.0, np.float32(cell_distances.NEVER)]
+    assert np.array(image.pixels[:2]).tolist() == [0.0, 0.0], "as of an image that a saved scene lost"
 
 
 def test_a_scene_without_such_surfaces_needs_no_image(stage):
