@@ -52,7 +52,8 @@ class SampleRenderer(IntegratedRenderer):
         name = view.camera.name
         flame_field.set_reach(self.stage, flame_map.reach(shot, view))
         flames, outline = self._flames(_FRAME)
-        cells = self._measure_cells(outline, [])  # the twin shows surfaces behind smoke
+        cells = self._measure_cells(outline)
+        self._set_distances(cells, [])  # the twin shows surfaces behind smoke
         if self.shadow:
             with cost.part(frame_cost.SHADOW):
                 self.shadow.cast(self.stage, smoke)
@@ -61,8 +62,8 @@ class SampleRenderer(IntegratedRenderer):
                 found = self._surfaces("rgb", folder)
             with cost.part("classes"):
                 centres = self._surfaces("masks", folder, centres=True)
-        burning = flames, outline
-        eye = SampleEye(shot, self.stage, found, 0, smoke, *burning, flame_cells=cells)
+        burning = flames, outline, cells
+        eye = SampleEye(shot, self.stage, found, 0, smoke, *burning)
         centre = CentreEye(shot, self.stage, centres, 0, smoke, *burning)
         with cost.part(frame_cost.MARCH):
             light = eye.light()

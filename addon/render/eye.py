@@ -29,6 +29,7 @@ from .surfaces import Channels
 Array = NDArray[np.float32]
 
 _STEP = 0.5  # voxels, step of the ray march
+_STEP_OF_MASKS, _OPAQUE = 1.0, 12.0  # voxels; optical depth, which transmits 6e-6 of the light
 _SPARSE, _HIDES = 16, 3.0  # pixels between rays; optical depth that transmits 5 % of light
 _FARTHEST, _NEAREST, _TAPS = 2.0e4, 1.0e-3, 48  # m; nearest distance over the surface's; distances of masks
 _THIN = 0.9  # transmittance of flames below which more detail may show that they are opaque
@@ -274,9 +275,9 @@ class Eye:
             pixels[burning] = 0.0, 1.0, masks.FIRE
         if not self.smoke:
             return pixels
-        depth = volume.optical_depth(self.smoke, *_lines(self.rays), ends.ravel(), step=_STEP)
-        clear = np.exp(-depth * illumination.extinction_factor(self.stage)).reshape(self.shape)
-        return pixels * clear[..., None]
+        factor = illumination.extinction_factor(self.stage)
+        depth = volume.optical_depth(self.smoke, *_lines(self.rays), ends.ravel(), _STEP_OF_MASKS, _OPAQUE / factor)
+        return pixels * np.exp(-depth * factor).reshape(*self.shape, 1)
 
     def smoke_range(self, clear: Array) -> Array:
         """Measure the distance (h, w) of smoke of this transmittance (h, w), m (see `smoke_range`)."""
@@ -291,19 +292,18 @@ class Eye:
 
     def _flames_before(self, ends: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Return the distances (h, w) up to opaque flames or `ends`, m, and a mask of the opaque flames."""
-        origins, directions = _lines(self.rays)
-        reached, first = np.minimum(ends, _FARTHEST).reshape(-1, 1), ends.ravel().copy()
-        marched = volume.march([], origins, directions, reached, self._light, _STEP, flames=self.outline)
-        near = marched[:, 0, 3] < _THIN
-        burning = np.zeros(len(near), bool)
-        if near.any():
-            at = reached[near] * np.geomspace(_NEAREST, 1.0, _TAPS)
-            lines = origins if origins.ndim == 1 else origins[near], directions[near]
-            marched = volume.march([], *lines, at, self._light, _STEP, flames=self.flames)
-            opaque = marched[..., 3] < masks.HIDES
-            burning[near] = opaque[:, -1]
-            first[near] = np.where(opaque[:, -1], at[np.arange(len(at)), opaque.argmax(axis=1)], first[near])
-        return first.reshape(self.shape), burning.reshape(self.shape)
+        first, burning, near = ends.copy(), np.zeros(self.shape, bool), self._near_flames.copy()
+        near[near] = self._march_flames(self.outline, near, ends[near][:, None])[:, 0] < _THIN
+        at = np.minimum(ends[near], _FARTHEST)[:, None] * np.geomspace(_NEAREST, 1.0, _TAPS)
+        opaque = self._march_flames(self.flames, near, at) < masks.HIDES
+        burning[near] = opaque[:, -1]
+        first[near] = np.where(opaque[:, -1], at[np.arange(len(at)), opaque.argmax(axis=1)], first[near])
+        return first, burning
+
+    def _march_flames(self, flames: FlameVolume | None, chosen: NDArray[np.bool_], at: Array) -> Array:
+        """Return the transmittance (n, taps) of flames up to distances (n, taps) in chosen pixels (h, w)."""
+        lines, at = _chosen(self.rays, chosen), np.minimum(at, _FARTHEST)
+        return volume.march([], *lines, at, self._light, _STEP, flames=flames)[..., 3]
 
     def hidden_by_near_smoke(self, near: float) -> float:
         """Estimate the share of the picture, 0 to 1, that is hidden by smoke nearer than `near` m."""

@@ -53,6 +53,7 @@ _CLOSE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share 
 Array = NDArray[np.float32]
 Flames = tuple[FlameVolume | None, FlameVolume | None]
 FlamesOf = Callable[[int], Flames]
+CellsOf = Callable[[int], flame_distance.FlameCells | None]
 
 
 class IntegratedRenderer:
@@ -90,12 +91,13 @@ class IntegratedRenderer:
                 self.shadow.cast(self.stage, smoke)
         shared = [each for each in _shared() if each.name in pictures]
         flames = functools.cache(self._flames)  # for this frame alone: they take memory
+        cells = functools.cache(lambda frame: self._measure_cells(flames(frame)[1]))
         if shared:
-            self._render_shared_rays(shared, marched, pictures, smoke, flames, part)
+            self._render_shared_rays(shared, marched, pictures, smoke, flames, cells, part)
         done = {each.name for each in (*shared, *marched)}
         others = [picture for name, picture in pictures.items() if name not in done]
         if others:
-            self._render_centre_rays(others, smoke, flames, part)
+            self._render_centre_rays(others, smoke, flames, cells, part)
 
     def _render_shared_rays(
         self,
@@ -104,6 +106,7 @@ class IntegratedRenderer:
         pictures: dict[str, Picture],
         smoke: Sequence[volume.Bricks],
         flames_of: FlamesOf,
+        cells_of: CellsOf,
         part: Path,
     ) -> None:
         """Render passes that share rays in the layer of the first one, and marched passes by them."""
@@ -111,7 +114,9 @@ class IntegratedRenderer:
         frame = pictures[first].frame
         infrared = any(each.shading == "radiance" and not each.geometry_only for each in shared)
         flames, outline = flames_of(frame)
-        cells = self._measure_cells(outline, smoke) if "rgb" in pictures else None
+        cells = cells_of(frame) if "rgb" in pictures else None
+        if "rgb" in pictures:
+            self._set_distances(cells, smoke)
         with self.cost.part(frame_cost.SURFACES):
             rendered = surfaces.render(self.scene, [first], part, infrared=infrared)
             wanted = self.has_text and "rgb" in pictures
@@ -152,33 +157,35 @@ class IntegratedRenderer:
             flames = build()
             return flames, flames if view.width <= _OUTLINE else build(columns=_OUTLINE)
 
-    def _measure_cells(
-        self, flames: FlameVolume | None, smoke: Sequence[volume.Bricks]
-    ) -> flame_distance.FlameCells | None:
-        """Show surfaces the flames and the opaque smoke in each cell; return the flames.
-
-        None if there are none, or if surfaces cannot read them.
-        """
-        camera = self.stage.evaluated(self.scene.camera)
-        if self.scene.render.use_multiview or camera.data.type != "PERSP":
-            cell_distances.set_distances(self.stage)
+    def _measure_cells(self, flames: FlameVolume | None) -> flame_distance.FlameCells | None:
+        """Measure the flames in each cell of the picture; None without flames or one perspective picture."""
+        if flames is None or not self._has_cells:
             return None
-        cells = wide = opaque = None
+        (view,) = self.shot.paths
+        farthest = flame_map.FADE[1] * flame_map.reach(self.shot, view)
+        white = 2.0**-self.scene.view_settings.exposure
         with self.cost.part(frame_cost.DISTANCE):
-            if flames is not None:
-                (view,) = self.shot.paths
-                farthest = flame_map.FADE[1] * flame_map.reach(self.shot, view)
-                white = 2.0**-self.scene.view_settings.exposure
-                lines = rays.cell_rays(camera, self.scene, flame_distance.CELL)
-                cells = flame_distance.measure(flames, lines, farthest, white)
-                # Rays at the edge of a cell read its neighbour: without flames there, nothing would be
-                # before them.
-                wide = dilate(cells.distance, 1)
-            if smoke:
-                extinction = illumination.extinction_factor(self.stage)
-                opaque = opaque_smoke.measure(smoke, camera, self.scene, extinction)
-        cell_distances.set_distances(self.stage, wide, opaque)
-        return cells
+            lines = rays.cell_rays(self._camera, self.scene, flame_distance.CELL)
+            return flame_distance.measure(flames, lines, farthest, white)
+
+    def _set_distances(self, cells: flame_distance.FlameCells | None, smoke: Sequence[volume.Bricks]) -> None:
+        """Show surfaces the flames and the opaque smoke in each cell, if they can read them."""
+        opaque = None
+        if smoke and self._has_cells:
+            extinction = illumination.extinction_factor(self.stage)
+            with self.cost.part(frame_cost.DISTANCE):
+                opaque = opaque_smoke.measure(smoke, self._camera, self.scene, extinction)
+        # Rays at the edge of a cell read its neighbour: without flames there, nothing would be before them.
+        cell_distances.set_distances(self.stage, None if cells is None else dilate(cells.distance, 1), opaque)
+
+    @property
+    def _camera(self) -> bpy.types.Object:
+        return self.stage.evaluated(self.scene.camera)
+
+    @property
+    def _has_cells(self) -> bool:
+        """Whether the picture is a single one in perspective."""
+        return not self.scene.render.use_multiview and self._camera.data.type == "PERSP"
 
     def _blurred(self, eye: Eye, text: surfaces.Channels | None, frame: int) -> Array:
         """Compute the radiance (h, w, 3) of an eye, blurred by the camera's motion."""
@@ -215,7 +222,12 @@ class IntegratedRenderer:
         ]
 
     def _render_centre_rays(
-        self, pictures: list[Picture], smoke: Sequence[volume.Bricks], flames_of: FlamesOf, part: Path
+        self,
+        pictures: list[Picture],
+        smoke: Sequence[volume.Bricks],
+        flames_of: FlamesOf,
+        cells_of: CellsOf,
+        part: Path,
     ) -> None:
         """Render passes whose rays all go through pixel centres; geometry is seen by the rays of classes."""
         drawn_by = {picture.name: _centre_layer(picture.name) for picture in pictures}
@@ -230,7 +242,8 @@ class IntegratedRenderer:
             for number, found in eyes:
                 channels = found[drawn_by[picture.name]]
                 if march:
-                    eye = Eye(self.shot, self.stage, channels, number, smoke, *flames_of(picture.frame))
+                    burning = *flames_of(picture.frame), cells_of(picture.frame)
+                    eye = Eye(self.shot, self.stage, channels, number, smoke, *burning)
                     with self.cost.part(picture.name):
                         halves.append(march(eye, picture.frame))
                 else:
