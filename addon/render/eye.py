@@ -293,14 +293,14 @@ class Eye:
     def _flames_before(self, ends: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Return the distances (h, w) up to opaque flames or `ends`, m, and a mask of the opaque flames."""
         first, burning, near = ends.copy(), np.zeros(self.shape, bool), self._near_flames.copy()
-        near[near] = self._march_flames(self.outline, near, ends[near][:, None])[:, 0] < _THIN
+        near[near] = self._through_flames(self.outline, near, ends[near][:, None])[:, 0] < _THIN
         at = np.minimum(ends[near], _FARTHEST)[:, None] * np.geomspace(_NEAREST, 1.0, _TAPS)
-        opaque = self._march_flames(self.flames, near, at) < masks.HIDES
+        opaque = self._through_flames(self.flames, near, at) < masks.HIDES
         burning[near] = opaque[:, -1]
         first[near] = np.where(opaque[:, -1], at[np.arange(len(at)), opaque.argmax(axis=1)], first[near])
         return first, burning
 
-    def _march_flames(self, flames: FlameVolume | None, chosen: NDArray[np.bool_], at: Array) -> Array:
+    def _through_flames(self, flames: FlameVolume | None, chosen: NDArray[np.bool_], at: Array) -> Array:
         """Return the transmittance (n, taps) of flames up to distances (n, taps) in chosen pixels (h, w)."""
         lines, at = _chosen(self.rays, chosen), np.minimum(at, _FARTHEST)
         return volume.march([], *lines, at, self._light, _STEP, flames=flames)[..., 3]
