@@ -20,8 +20,9 @@ the footprints, from 1. A tree has the same number in every frame, camera and fi
 it depends on the identity of the tree (see `numbers`), not on its index among built trees. Tree numbers are
 24-bit hashes: about n^2 / 2^25 colliding pairs are expected among n visible trees. The PNG shows each class
 in one colour. One ray goes through each pixel's centre without filtering, so numbers stay integers. Behind
-opaque smoke the instance is unknown: 0. EEVEE writes half floats, exact only for integers up to 2048, so
-`masks` rejects EEVEE.
+opaque smoke the instance is unknown: 0. `clear` is measured with steps of one voxel up to an optical depth of
+12: half steps differ by 5e-5 on average, and by 0.03 at most (frames 24 and 25 of the example). EEVEE writes
+half floats, exact only for integers up to 2048, so `masks` rejects EEVEE.
 """
 
 from __future__ import annotations
