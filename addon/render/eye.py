@@ -276,7 +276,8 @@ class Eye:
         if not self.smoke:
             return pixels
         factor = illumination.extinction_factor(self.stage)
-        depth = volume.optical_depth(self.smoke, *_lines(self.rays), ends.ravel(), _STEP_OF_MASKS, _OPAQUE / factor)
+        how = {"step": _STEP_OF_MASKS, "max_depth": _OPAQUE / max(factor, 1.0e-6)}
+        depth = volume.optical_depth(self.smoke, *_lines(self.rays), ends.ravel(), **how)
         return pixels * np.exp(-depth * factor).reshape(*self.shape, 1)
 
     def smoke_range(self, clear: Array) -> Array:

@@ -64,8 +64,8 @@ def set_distances(
 def _shader_group(stage: Stage) -> bpy.types.NodeTree:
     """Create the node group and its image once per scene.
 
-    The image has the distance of flames and 1 / the distance of smoke: a black image, as Blender shows one that
-    a saved scene lost, hides nothing.
+    The image has the distance of flames and 1 / the distance of smoke: a black one, as Blender shows an image
+    that a saved scene lost, hides nothing.
     """
     if stage.root.get(_GROUP) is not None:
         return stage.root[_GROUP]
