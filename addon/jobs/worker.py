@@ -368,7 +368,8 @@ def _signal(number: int) -> str:
 
 def serve(blender: bool = True, size: int = 0) -> None:
     """Do the parent's works until it closes the pipe; worker side of `Worker`."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent decides
+    # Ctrl-C reaches both; the parent decides. On Windows its wait for an answer ends only with this process.
+    signal.signal(signal.SIGINT, signal.SIG_DFL if sys.platform == "win32" else signal.SIG_IGN)
     channel, source = os.fdopen(os.dup(1), "wb"), os.fdopen(os.dup(0), "rb")
     os.dup2(2, 1)
     # Windows' libraries ask for stdin when they are loaded, and wait while its pipe is read.

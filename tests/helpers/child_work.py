@@ -63,6 +63,12 @@ def hang(*_, **__):
     re.match("(a+)+$", "a" * 60 + "b")
 
 
+def report_and_hang(progress, tell):
+    """Report progress, and then hang."""
+    progress(1, 2)
+    hang()
+
+
 def send_back(value, progress, tell):
     """Write to stdout as libraries do, in Python and in C, and return the value."""
     print("noise")
