@@ -36,11 +36,12 @@ a film of your own run:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
     arguments = parse(list(sys.argv[1:] if argv is None else argv))
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        if sys.platform == "win32":
-            sys.stdout.reconfigure(encoding="utf-8")  # its code pages lack most letters of file names
-        else:
-            sys.stdout.reconfigure(errors="surrogateescape")  # print file names byte for byte
+    if sys.platform == "win32":
+        for stream in (sys.stdout, sys.stderr):  # code pages lack most letters of file names
+            if isinstance(stream, io.TextIOWrapper):
+                stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+    elif isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="surrogateescape")  # print file names byte for byte
     try:
         for each in (*arguments.extensions, find_commands()[arguments.command]):
             if (status := each.run(arguments)) is not None:

@@ -331,7 +331,7 @@ def scene(make_run, tmp_path):
         camera = (
             '[[cameras]]\nname = "drone"\nkeys = [{latitude = 38.9, longitude = -120.6, target = "fire"}]\n'
         )
-        path.write_text(f'run = "{run}"\n{text}\n{camera}')
+        path.write_text(f'run = "{run.as_posix()}"\n{text}\n{camera}')
         return path
 
     return write
@@ -394,13 +394,16 @@ def test_a_full_disk_is_named_with_its_remedy(names, capsys):
 
 def test_names_of_files_reach_a_pipe_of_windows_whole(make_run, tmp_path, monkeypatch):
     """Its pipes have a code page, which lacks most letters."""
-    out = io.TextIOWrapper(io.BytesIO(), encoding="cp1252")
+    out, err = (io.TextIOWrapper(io.BytesIO(), encoding="cp1252") for _ in range(2))
     run = make_run(toml=RUN_TOML.replace("Small", "火事 ü"))
     monkeypatch.setattr(sys, "platform", "win32")
     monkeypatch.setattr(sys, "stdout", out)
+    monkeypatch.setattr(sys, "stderr", err)
     assert cli.main(["info", str(run)]) == 0
-    out.flush()
-    assert "火事 ü" in out.buffer.getvalue().decode()
+    assert cli.main(["info", str(tmp_path / "火事 ü")]) == 1
+    for stream in (out, err):
+        stream.flush()
+        assert "火事 ü" in stream.buffer.getvalue().decode()
 
 
 @pytest.mark.parametrize("has_avx2", [True, False])
