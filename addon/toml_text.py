@@ -188,7 +188,9 @@ def _syntax_error(path: str | PathLike[str], text: str, message: str) -> InputEr
     match = re.search(r" \(at line (\d+), column (\d+)\)$", message)
     reason = re.sub(r" \(at .*\)$", "", message)
     line, column = (int(match[1]), int(match[2])) if match else (max(1, len(text.splitlines())), 0)
-    return input_error(path, f"not valid TOML: {reason[:1].lower()}{reason[1:]}", line=line, column=column)
+    remedy = "; write / in place of \\" if re.match(r"Unescaped|Invalid hex", reason) else ""  # C:\Users
+    reason = f"not valid TOML: {reason[:1].lower()}{reason[1:]}{remedy}"
+    return input_error(path, reason, line=line, column=column)
 
 
 def places(text: str) -> dict[Where, tuple[int, int]]:

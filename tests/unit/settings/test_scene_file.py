@@ -158,6 +158,7 @@ MISTAKES = [
     ('run = "elsewhere/run"', 'run = "else\\u0000"', 1, 1, ["run holds", "number 0"]),
     ('run = "elsewhere/run"', '"a\\u001b[31m" = 1', 1, 1, ["unknown key"]),
     ('run = "elsewhere/run"', "time = 3", 1, 1, ["not valid TOML"]),
+    ('run = "elsewhere/run"', r'run = "C:\Users\me"', 1, 12, ["not valid TOML", "write / in place of \\"]),
     ('run = "elsewhere/run"', "light = 3", 1, 1, ["light must be a table, not 3"]),
     ('run = "elsewhere/run"', "run", 1, 6, ["not valid TOML"]),
     ('"two"', '"two', 19, 12, ["not valid TOML"]),
