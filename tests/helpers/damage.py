@@ -10,7 +10,6 @@ import io
 import json
 import mmap
 import os
-import resource
 import shutil
 import signal
 import struct
@@ -261,6 +260,8 @@ def _forked(paths, options, folder):
     ear, mouth = os.pipe()
     pid = os.fork()
     if pid == 0:
+        import resource  # not on Windows
+
         os.close(ear)
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 5))

@@ -11,7 +11,6 @@ import contextlib
 import functools
 import io
 import os
-import resource
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
@@ -500,6 +499,8 @@ def protected(door: Door, path: Path) -> Outcome:
 
 def full(door: Door, path: Path) -> Outcome:
     """Let no file grow in the second call, as on a full disk."""
+    import resource  # not on Windows
+
     call(door)
     before, limits = path.read_bytes(), resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (0, limits[1]))

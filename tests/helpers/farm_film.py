@@ -15,7 +15,7 @@ from scene_text import NO_PLANTS, PREVIEW, TINY
 
 SCENE = (
     """\
-run = "{run}"
+run = '{run}'
 [time]
 start = 2014-09-17T21:00:00Z
 end = 2014-09-17T22:00:00Z

@@ -59,7 +59,8 @@ class Speed:
         """Measure the factor again after some seconds of work."""
         now = processor_s()
         if self._measured_s is None or now - self._measured_s > BETWEEN_S:
-            self.factor = LOOP_S / sorted(loop_s() for _ in range(3))[1]
+            # A clock of Windows has steps of 16 ms.
+            self.factor = LOOP_S / max(sorted(loop_s() for _ in range(3))[1], 0.1 * LOOP_S)
             self._measured_s = now
 
 

@@ -16,7 +16,7 @@ denoise = false
 """
 
 THREE_FRAMES = """\
-run = "{run}"
+run = '{run}'
 [time]
 start = 2014-09-17T21:00:00Z
 end = 2014-09-17T22:00:00Z
@@ -73,7 +73,7 @@ target_longitude = -120.590
 """
 
 PANEL = """\
-run = "{run}"
+run = '{run}'
 cache = "cache"
 [time]
 start = 2014-09-17T21:00:00Z

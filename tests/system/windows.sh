@@ -46,6 +46,11 @@ make_python() {
   cp -r "$source"/{python.exe,lib} "$source"/*.dll "$source"/lib/vcruntime140*.dll "$python/"
   .venv/bin/pip install --quiet --disable-pip-version-check --target "$python/lib/site-packages" --platform win_amd64 \
     --python-version "$version" --only-binary=:all: --requirement <(requirements) "bpy==${blender[$version]}"
+  # Wine 8 lacks this library, of which packages in Rust want random numbers.
+  x86_64-w64-mingw32-gcc-posix -shared -x c - -o "$python/bcryptprimitives.dll" -ladvapi32 <<'END'
+int SystemFunction036(void *, unsigned);
+int ProcessPrng(void *bytes, unsigned long long count) { return SystemFunction036(bytes, count); }
+END
 }
 
 install_wheels() {
@@ -74,8 +79,9 @@ prepare() {
   fi
 }
 
+# Tests read their own files without naming UTF-8, which is Linux' default.
 test_room() { # folder pytest-argument...
-  run -m pytest -q -p no:cacheprovider -p no:zarr -o addopts="-ra --strict-markers --import-mode=importlib" "$@"
+  run -X utf8 -m pytest -q -p no:cacheprovider -p no:zarr -o addopts="-ra --strict-markers --import-mode=importlib" "$@"
 }
 
 try() { run tests/system/package/windows.py "$@"; }

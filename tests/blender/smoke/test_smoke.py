@@ -221,7 +221,7 @@ def test_a_cache_that_cannot_be_made_is_named(smoky, run, tmp_path):
 
 def test_smoke_lies_beside_the_scene_file_wherever_that_is_called_from(run_folder, tmp_path, monkeypatch):
     (tmp_path / "sub").mkdir()
-    text = f'run = "{run_folder}"\ncache = "kept"\n[[cameras]]\nname = "a"\nkind = "satellite"\n'
+    text = f'run = "{run_folder.as_posix()}"\ncache = "kept"\n[[cameras]]\nname = "a"\nkind = "satellite"\n'
     (tmp_path / "sub" / "scene.toml").write_text(text)
     monkeypatch.chdir(tmp_path)
     loaded = file.read("sub/scene.toml")

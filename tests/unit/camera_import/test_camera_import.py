@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 
 SCENE = """\
 # our fire
-run = "{run}"
+run = '{run}'
 time = {{ frames = 24, fps = 12 }}
 terrain = {{ near_radius = 0.0, apron = 0.0 }}
 

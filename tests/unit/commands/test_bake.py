@@ -11,7 +11,7 @@ from firetwin.shot.source import ShotSource
 from scene_text import DRONE, NO_PLANTS, TINY
 
 SMOKY = """\
-run = "{run}"
+run = '{run}'
 [time]
 frames = 2
 shutter = 0.0

@@ -106,7 +106,7 @@ def cycles_folder(tmp_path, **texts):
     return folder
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="the imitated ptxas is a script")
+@pytest.mark.posix("scripts in place of ptxas")
 def test_kernels_are_made_from_the_nearest_older_text(tmp_path, ptxas):
     folder = cycles_folder(tmp_path, compute_75="old", compute_89="near", compute_120="new")
     made = kernels.make("sm_90", folder)
@@ -118,7 +118,7 @@ def test_kernels_are_made_from_the_nearest_older_text(tmp_path, ptxas):
         kernels.make("sm_70", folder)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="the imitated ptxas is a script")
+@pytest.mark.posix("scripts in place of ptxas")
 def test_a_failed_translation_leaves_no_file(tmp_path, ptxas):
     folder = cycles_folder(tmp_path, compute_75="broken")
     with pytest.raises(Error, match=r"kernel_compute_75.ptx.zst for sm_90: ptxas fatal   : Unsupported"):

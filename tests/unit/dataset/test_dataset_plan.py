@@ -145,7 +145,7 @@ def test_imagery_needs_a_licence_of_the_list(read, tmp_path, license, word):
 
 def test_the_example_shows_every_key_with_its_default(tmp_path):
     text = (ROOT / "examples/dataset.toml").read_text()
-    example = tomllib.loads(text.replace('run = "out/sample"', f'run = "{tmp_path}"'))
+    example = tomllib.loads(text.replace('run = "out/sample"', f'run = "{tmp_path.as_posix()}"'))
     assert set(example["draws"]) == set(VALUES)
     (tmp_path / "plan.toml").write_text(text.replace("out/sample", str(tmp_path)))
     plan = plan_file.read(tmp_path / "plan.toml")

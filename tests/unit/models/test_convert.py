@@ -7,6 +7,7 @@ import threading
 import time
 import warnings
 from collections import defaultdict
+from pathlib import Path
 from types import SimpleNamespace
 
 import child_work
@@ -107,7 +108,7 @@ def test_a_file_that_cannot_be_used_is_named(tmp_path, monkeypatch):
     paths, _ = damage.files_of("forefire", tmp_path)
     with pytest.raises(InputError) as caught:
         convert.run(paths, tmp_path / "out")
-    assert str(caught.value) == "/nowhere/at_all: No such file or directory"
+    assert str(caught.value) == f"{Path('/nowhere/at_all')}: No such file or directory"
 
 
 def test_a_process_that_hangs_is_one_line(tmp_path, monkeypatch, capfd):

@@ -5,7 +5,6 @@
 
 import itertools
 import os
-import resource
 import shutil
 import signal
 import sys
@@ -126,6 +125,8 @@ def in_child(work):
     """Run a reader with little memory and time; return 0: it refused, 1: it read, 2: it failed."""
     child = os.fork()
     if child == 0:
+        import resource  # not on Windows
+
         status = 2
         try:
             signal.alarm(SECONDS)

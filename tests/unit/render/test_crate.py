@@ -18,7 +18,7 @@ NAMES = ("drone/rgb/drone_rgb_000001.png", "drone/depth/drone_depth_000001.exr",
 def scene(make_run, tmp_path):
     """Scene file of the small run."""
     path = tmp_path / "film.toml"
-    path.write_text(f'run = "{make_run()}"\ncache = "cache"\n')
+    path.write_text(f'run = "{make_run().as_posix()}"\ncache = "cache"\n')
     return path
 
 
@@ -99,7 +99,7 @@ def test_members_belong_to_the_run_of_the_film(make_run, tmp_path):
     make_run().rename(tmp_path / "other")
     write_field(tmp_path / "other", "elevation", small_fields()["elevation"] + 1.0, "npy")
     path = tmp_path / "film.toml"
-    path.write_text(f'run = "{make_run()}"\n[[runs]]\npath = "other"\nname = "other"\n')
+    path.write_text(f'run = "{make_run().as_posix()}"\n[[runs]]\npath = "other"\nname = "other"\n')
     inputs = [content.inputs(readers.open(tmp_path / name), tmp_path / "cache") for name in ("run", "other")]
     out = finish(tmp_path / "film", inputs[0], beside={"other": inputs[1]}, further={"member 1": "2" * 64})
     assert cli.main(["cite", str(path), "--crate", str(out)]) == 0

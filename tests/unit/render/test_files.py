@@ -42,9 +42,9 @@ ADDON = next(Path(place) for place in firetwin.__path__ if (Path(place) / "rende
 
 
 @pytest.fixture
-def tiny():
+def tiny(tmp_path):
     """A disk of 1 MB."""
-    place = Path("/tmp") / f"firetwin-tiny-{os.getpid()}"
+    place = tmp_path / "tiny"
     place.mkdir()
     command = ["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", str(place)]
     try:

@@ -122,9 +122,8 @@ def test_a_geotiff_without_times_or_with_one_band_is_refused(tmp_path, converted
 
 
 def netcdf(path, **variables):
-    import netCDF4
-
-    with netCDF4.Dataset(path, "w") as file:
+    library = pytest.importorskip("netCDF4")
+    with library.Dataset(path, "w") as file:
         for name, size in (("time", 6), ("y", 20), ("x", 30)):
             file.createDimension(name, size)
         axes = (("time", "time", HOURS, "seconds since 2014-09-17 19:00:00"),)

@@ -140,7 +140,7 @@ def test_heat_is_drawn_by_class_until_the_next_flight(make_run, tmp_path):
     path = tmp_path / "ir.geojson"
     path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
     scene = tmp_path / "scene.toml"
-    scene.write_text(f'run = "{run}"\n[terrain]\napron = 0.0\n[fire]\nobserved = "ir.geojson"\n')
+    scene.write_text(f'run = "{run.as_posix()}"\n[terrain]\napron = 0.0\n[fire]\nobserved = "ir.geojson"\n')
     lines = observed.lines(ShotSource(scene=str(scene)).shot())
     assert [(line.kind, line.start, line.end) for line in lines] == [
         ("intense", 30.0, 90.0),

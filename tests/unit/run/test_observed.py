@@ -27,7 +27,7 @@ def scene(make_run, tmp_path):
         "latitude,longitude,acq_date,acq_time,scan,track,instrument\n38.905,-120.592,2014-09-17,446,0.4,0.4,VIIRS\n"
     )
     path = tmp_path / "scene.toml"
-    path.write_text(f'run = "{make_run()}"\n[terrain]\napron = 0.0\n[fire]\nobserved = "seen"\n')
+    path.write_text(f'run = "{make_run().as_posix()}"\n[terrain]\napron = 0.0\n[fire]\nobserved = "seen"\n')
     return path
 
 

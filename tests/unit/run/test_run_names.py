@@ -12,7 +12,9 @@ from firetwin.run import opening as runs
 from firetwin_core.flux import at_time
 from firetwin_core.run import read_grid
 
-ODD = os.fsdecode(b"run\xff")
+pytestmark = pytest.mark.posix("names that are not Unicode")
+
+ODD = "run\udcff"
 
 
 @pytest.fixture(params=["npy", "text"])

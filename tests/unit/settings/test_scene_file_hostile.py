@@ -2,7 +2,6 @@
 
 import contextlib
 import os
-import sys
 
 import polite
 import pytest
@@ -38,7 +37,6 @@ def test_what_is_changed_is_a_scene_that_can_be_planned(folder, kind):
         assert scene_fuzz.outcome(path) == ("plan", "")
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="has no such pipes")
 @pytest.mark.parametrize(
     ("section", "name"),
     [

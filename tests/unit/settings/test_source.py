@@ -31,7 +31,7 @@ def test_a_camera_that_ridges_hide_is_told_and_stays(make_run, tmp_path):
 
     def shot(raised):
         scene.write_text(
-            f'run = "{folder}"\n[time]\nframes = 2\n[terrain]\nnear_radius = 0.0\napron = 0.0\n'
+            f'run = "{folder.as_posix()}"\n[time]\nframes = 2\n[terrain]\nnear_radius = 0.0\napron = 0.0\n'
             f'[[cameras]]\nname = "lookout"\nover_ridges = {raised}\n'
             'keys = [{latitude = 38.9045, longitude = -120.6, height = 60.0, target = "fire"}]\n'
         )
