@@ -133,7 +133,7 @@ def _point(out: Path, version: str, overwrite: bool) -> None:
     link = out / LATEST
     if link.is_symlink() or not link.exists():
         with contextlib.suppress(OSError, NotImplementedError), unfinished.folder(link) as part:
-            os.symlink(version, part / LATEST, target_is_directory=True)
+            (part / LATEST).symlink_to(version, target_is_directory=True)
             (part / LATEST).replace(link)
             return
     output.write_text(out / f"{LATEST}.txt", f"{version}\n", overwrite)
