@@ -62,6 +62,14 @@ def replace(part: Path, path: Path) -> None:
     part.replace(path)
 
 
+def relative(path: Path, folder: Path) -> Path:
+    """Return a path relative to a folder; absolute if no relative path leads to another drive of Windows."""
+    try:
+        return Path(os.path.relpath(path, folder))
+    except ValueError:
+        return path.absolute()
+
+
 def temporary_path(path: Path) -> Path:
     """Return a unique temporary name in the folder of `path`, with the same extension."""
     return path.with_name(f".{path.stem}.{uuid.uuid4().hex[:12]}.part{path.suffix}")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import re
 from collections.abc import Iterable
 from dataclasses import replace
@@ -11,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .. import files
 from ..did_you_mean import suggestion
 from ..errors import InputError, UsageError, input_error
 from ..progress import Reporter, count, result, say
@@ -142,10 +142,7 @@ def _follow(path: Path, shot: Shot, times: str) -> Rig:
     if times == "own" and (missed := recorded.missed(shot.run, shot.frames)):
         raise input_error(path, missed.replace('write track_times = "start" or "shot"', "add --times shot"))
     folder = shot.settings.path.absolute().parent
-    try:
-        relative = Path(os.path.relpath(path.absolute(), folder))
-    except ValueError:  # another drive
-        relative = path.absolute()
+    relative = files.relative(path.absolute(), folder)
     say(f"the camera follows the track {path}, and looks ahead; keep the file")
     return Drone(track=folder / relative, track_times=times)
 

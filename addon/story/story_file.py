@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import datetime
@@ -12,7 +11,7 @@ from zoneinfo import ZoneInfo
 
 from .. import output
 from ..errors import input_error, reading
-from ..files import read_text
+from ..files import read_text, relative
 from ..limits import SETTINGS_BYTES
 from ..shot.schema import Field, fields, validate
 from ..shot.settings import toml_writer
@@ -96,7 +95,7 @@ def _value(story: Storyboard, value: Any) -> str:
     if isinstance(value, datetime):
         return value.astimezone(ZoneInfo(story.zone or "UTC")).isoformat(timespec="milliseconds")
     if isinstance(value, Path):
-        return toml_writer.quoted(Path(os.path.relpath(value, story.path.parent)).as_posix())
+        return toml_writer.quoted(relative(value, story.path.parent).as_posix())
     if isinstance(value, str):
         return toml_writer.quoted(value)
     return repr(value).lower()

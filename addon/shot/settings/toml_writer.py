@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import zoneinfo
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
@@ -11,6 +10,7 @@ from datetime import UTC, datetime, timedelta, tzinfo
 from pathlib import Path
 from typing import Any
 
+from ... import files
 from ..schema import Field, Key, fields, items, kind_of, plain, summary
 from . import Settings
 
@@ -193,7 +193,7 @@ def _relative(path: Path, folder: Path | None) -> str:
     try:
         text = path.relative_to(folder).as_posix()
     except ValueError:
-        text = (path if path.is_absolute() else Path(os.path.relpath(path, folder))).as_posix()
+        text = (path if path.is_absolute() else files.relative(path, folder)).as_posix()
     return f"./{text}" if text.startswith("~") else text
 
 

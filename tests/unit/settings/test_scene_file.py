@@ -1,6 +1,8 @@
 """Scene files: read, refused with a place, and written again."""
 
 import dataclasses
+import os
+import sys
 import tomllib
 import typing
 from collections import Counter
@@ -83,9 +85,10 @@ def test_an_empty_file_is_all_defaults(load, tmp_path):
 
 
 def test_folders_may_be_absolute_or_at_home(load, monkeypatch, tmp_path):
-    monkeypatch.setenv("HOME", str(tmp_path / "home"))
-    loaded = load('run = "/data/run"\ncache = "~/cache"')
-    assert loaded.run == Path("/data/run")
+    monkeypatch.setenv("USERPROFILE" if sys.platform == "win32" else "HOME", str(tmp_path / "home"))
+    absolute = tmp_path / "data" / "run"
+    loaded = load(f'run = "{absolute.as_posix()}"\ncache = "~/cache"')
+    assert loaded.run == absolute
     assert loaded.cache == tmp_path / "home" / "cache"
     assert load('run = "~nobody-is-called-so/run"').run == tmp_path / "~nobody-is-called-so" / "run"
 
@@ -279,13 +282,20 @@ def test_folders_are_written_as_the_settings_own_folder_sees_them(tmp_path, monk
         whole = Settings(path=Path(path), run=Path(folder))
         return tomllib.loads(scene_file.text(whole))["run"]
 
-    assert run_in("/a/b/run", "/a/b/scene.toml") == "run"
-    assert run_in("/a/run", "/a/b/scene.toml") == "/a/run"
+    root = Path.cwd().anchor
+    assert run_in(f"{root}a/b/run", f"{root}a/b/scene.toml") == "run"
+    assert run_in(f"{root}a/run", f"{root}a/b/scene.toml") == Path(f"{root}a/run").as_posix()
     assert run_in("a/../run", "a/scene.toml") == "../run"
     assert run_in("run", "a/scene.toml") == "../run"
     assert run_in("/a/~b", "/a/scene.toml") == "./~b"
     monkeypatch.chdir(tmp_path)
     assert run_in("run", tmp_path / "a" / "scene.toml") == "../run"
+
+    def other_drive(path, start):
+        raise ValueError("path is on mount 'C:', start on mount 'D:'")
+
+    monkeypatch.setattr(os.path, "relpath", other_drive)
+    assert run_in("run", "a/scene.toml") == (tmp_path / "run").as_posix()
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Stories: shots that the run can give, an editable storyboard, and captions with the run's numbers."""
 
 import json
+import os
 import re
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
@@ -245,6 +246,16 @@ def whole_run_metres(run, latitude, longitude):
     north, east = (float(axis.mean()) for axis in (run.latitude, run.longitude))
     scale = 111e3 * np.array([1.0, np.cos(np.radians(north))])
     return scale * (latitude - north, longitude - east)
+
+
+def test_a_run_on_another_drive_is_named_by_its_whole_path(story_of, monkeypatch):
+    _, story = story_of()
+
+    def other_drive(path, start):
+        raise ValueError("path is on mount 'C:', start on mount 'D:'")
+
+    monkeypatch.setattr(os.path, "relpath", other_drive)
+    assert f'run = "{story.run.as_posix()}"' in story_file.text(story)
 
 
 def test_the_file_comes_back_and_names_faults(story_of):
