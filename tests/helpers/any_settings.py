@@ -9,6 +9,7 @@ from firetwin.shot import schema
 from firetwin.shot.schema.frame_list import FrameList
 from hypothesis import strategies as st
 
+SCENES = Path(Path.cwd().anchor, "scenes")
 ZONES = ["America/Los_Angeles", "UTC", "Asia/Kathmandu"]
 FOLDERS = st.sampled_from(
     ['a "quoted" one', "b\\c", "é/d", "../up", "/root of all", "~x", "tab\tdel\x7f", "."]
@@ -48,7 +49,7 @@ def any_value(part):
         bool: st.booleans(),
         str: st.sampled_from(list(key.names()) or [""]),
         FrameList: st.just(FrameList()),
-        Path: FOLDERS.map(lambda folder: Path("/scenes") / folder),
+        Path: FOLDERS.map(lambda folder: SCENES / folder),
         datetime: st.datetimes(datetime(1001, 1, 1), datetime(9997, 1, 1), timezones=st.just(UTC)),
         int: st.integers(-(2**63) if key.at_least is None else key.at_least, key.at_most or 2**63 - 1),
         float: st.floats(

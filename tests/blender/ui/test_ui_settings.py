@@ -6,7 +6,7 @@ from pathlib import Path
 import bpy
 import firetwin
 import pytest
-from any_settings import any_table
+from any_settings import SCENES, any_table
 from firetwin.errors import Error
 from firetwin.scene.build import PARTS
 from firetwin.shot import schema
@@ -37,7 +37,7 @@ def key(kind, name):
 @settings(
     max_examples=examples(25), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
-@given(any_table(Settings, path=st.just(Path("/scenes/scene.toml"))))
+@given(any_table(Settings, path=st.just(SCENES / "scene.toml")))
 def test_any_settings_come_back_from_the_blend_file(panel, whole):
     scene_file.fill(panel.id_data, whole)
     assert scene_file.read_settings(panel.id_data, whole.path) == whole

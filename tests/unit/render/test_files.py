@@ -118,6 +118,7 @@ def test_a_full_disk_under_the_core(tiny):
     assert [each.name for each in tiny.iterdir()] == ["filler"]
 
 
+@pytest.mark.posix("limits of the length of files")
 def test_a_file_that_ends_too_early_is_never_published(tmp_path):
     """A limit on the length of files, at their very end and before, as a disk that is full there."""
     code = """
@@ -219,6 +220,7 @@ def test_errors_of_writing_say_what_to_do(tmp_path):
         raise Error("something else")
 
 
+@pytest.mark.posix("names of open files, and syncs of folders")
 def test_all_of_a_file_is_on_the_disk_before_its_name(tmp_path, monkeypatch):
     done = []
     sync, replace = os.fsync, Path.replace

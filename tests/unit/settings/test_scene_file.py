@@ -11,7 +11,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
-from any_settings import any_table
+from any_settings import SCENES, any_table
 from firetwin import toml_text as places
 from firetwin.errors import InputError
 from firetwin.shot import schema
@@ -324,7 +324,7 @@ def test_every_number_has_bounds():
 
 
 @settings(max_examples=examples(60), deadline=None)
-@given(any_table(Settings, path=st.just(Path("/scenes/scene.toml"))))
+@given(any_table(Settings, path=st.just(SCENES / "scene.toml")))
 def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     folder = tmp_path_factory.getbasetemp()
     path = folder / "scene.toml"
@@ -335,7 +335,7 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
 def moved(value, folder):
     """A value whose paths are as if its file were in /scenes."""
     if isinstance(value, Path):
-        return Path("/scenes") / value.relative_to(folder) if value.is_relative_to(folder) else value
+        return SCENES / value.relative_to(folder) if value.is_relative_to(folder) else value
     if isinstance(value, tuple):
         return tuple(moved(each, folder) for each in value)
     if dataclasses.is_dataclass(value):

@@ -7,14 +7,14 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from any_settings import any_table
+from any_settings import SCENES, any_table
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.settings import Settings, scene_file, toml_update
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis_profiles import examples
 
-HERE = Path("/scenes/scene.toml")
+HERE = SCENES / "scene.toml"
 EXAMPLE = Path(__file__).parents[3] / "examples" / "king_fire.toml"
 SCENE = """\
 # A briefing for the county.
@@ -142,7 +142,8 @@ def test_other_ways_to_write_tables_stay_or_are_replaced(there):
 
 def test_line_ends_and_fresh_files(tmp_path):
     path = tmp_path / "scene.toml"
-    whole = dataclasses.replace(read('run = "/king"'), path=path, cache=Path("/cache"))
+    run, cache = (Path(path.anchor, name) for name in ("king", "cache"))
+    whole = dataclasses.replace(read(""), path=path, run=run, cache=cache)
     toml_update.save(whole)
     assert path.read_bytes() == scene_file.text(whole).encode()
     path.write_bytes(b'run = "/king" # ours\r\ncache = "/cache"\r\n')
