@@ -6,7 +6,9 @@ It tests for features and does not compare version numbers.
 from __future__ import annotations
 
 import itertools
+import locale
 import os
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
@@ -17,7 +19,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import Error
+from ..errors import Error, input_error
 from . import owned
 
 Numbers = Sequence[float] | NDArray[np.int64] | NDArray[np.floating]
@@ -353,6 +355,23 @@ def march_through_volumes(cycles: bpy.types.PropertyGroup) -> None:
     """Set Cycles to biased ray marching of volumes, as in 4.5; 5.0 also has unbiased sampling."""
     if hasattr(cycles, "volume_biased"):
         cycles.volume_biased = True
+
+
+def volume_path(path: Path) -> str:
+    """Return the path of a volume file for Blender.
+
+    OpenVDB of Blender on Windows reads UTF-8 in the code page of the process, and Blender then shows no
+    volume. A command of Python has the code page of the system.
+
+    Raises
+    ------
+    InputError
+        Blender would not find the file.
+    """
+    if sys.platform == "win32" and not str(path).isascii() and locale.getencoding() != "cp65001":
+        remedy = 'set cache to another one, such as "C:/cache"'
+        raise input_error(path.parent, f"is a folder that Blender reads no volumes from; {remedy}")
+    return str(path)
 
 
 def volume_shift(cycles: bpy.types.PropertyGroup, voxel: float) -> float:

@@ -50,7 +50,7 @@ def build(
     place = _write(shot, view, limit, torches)
     flame_field.set_reach(stage, limit)
     data = bpy.data.volumes.new("Firetwin Flame Volume")
-    data.filepath = str(file(place, 1))
+    data.filepath = compat.volume_path(file(place, 1))
     data.is_sequence = True
     data.frame_start, data.frame_duration, data.frame_offset = 1, shot.frames.count, 0
     data.sequence_mode = "CLIP"

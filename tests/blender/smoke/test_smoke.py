@@ -1,11 +1,14 @@
 """Smoke in the scene: baked once, read by Blender, seen in the picture."""
 
+import locale
 import os
 import shutil
+import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from pathlib import Path
 
 import bpy
 import levels_run
@@ -238,6 +241,18 @@ def test_blender_reads_the_grids_of_every_frame(shot, stage, scene):
         assert {"density", "dilution", "shade", "size", "glow"} <= {grid.name for grid in grids}
         assert grids.frame_filepath.endswith(f"smoke_{frame:06d}.vdb")
     assert tuple(thing.location) == (compat.volume_shift(scene.cycles, 120.0),) * 3
+
+
+def test_a_folder_whose_volumes_blender_cannot_read_is_refused(monkeypatch):
+    path = Path("cache") / "Straße" / "smoke_000001.vdb"
+    assert sys.platform == "win32" or compat.volume_path(path) == str(path)
+    monkeypatch.setattr(sys, "platform", "win32")
+    monkeypatch.setattr(locale, "getencoding", lambda: "cp1252")
+    with pytest.raises(InputError, match="Straße: is a folder that Blender reads no volumes from; set cache"):
+        compat.volume_path(path)
+    assert compat.volume_path(Path("smoke_000001.vdb")) == "smoke_000001.vdb"
+    monkeypatch.setattr(locale, "getencoding", lambda: "cp65001")
+    assert compat.volume_path(path) == str(path)
 
 
 def test_smoke_is_off_when_it_is_off(settings, run, stage):
