@@ -45,7 +45,8 @@ def _add_volume(
     """Add the volume object of a layer, whose files are in the folder `place`."""
     name = "Smoke" if layer.name == "smoke" else f"{layer.name.title()} Smoke"
     volume = bpy.data.volumes.new(f"Firetwin {name}")
-    volume.filepath = compat.volume_path(layer.file(place, 1))
+    file = layer.file(place, 1)
+    volume.filepath = str(file) if sources.is_integrated(shot) else compat.volume_path(file)
     volume.is_sequence = True
     volume.frame_start, volume.frame_duration, volume.frame_offset = 1, shot.frames.count, 0
     volume.sequence_mode = "CLIP"
