@@ -35,8 +35,8 @@ NO_FOLDER = "Save the .blend file or choose a folder for the story first"
 NO_SHOTS = "Make or read a story first"
 _LINE = "\\n"
 """Line break of a caption in a field of one line."""
-_ICONS = {CARD: "FONT_DATA"}
-_pictures: dict[str, bpy.utils.previews.ImagePreviewCollection] = {}
+_thumbnails: list[bpy.utils.previews.ImagePreviewCollection] = []
+"""The collection of thumbnails, once there are any."""
 
 
 def _folder(scene: bpy.types.Scene) -> Path:
@@ -60,13 +60,15 @@ def _thumbnail(folder: Path, shot: str) -> int:
         return 0
     path = paths[len(paths) // 2]
     key = f"{path} {path.stat().st_mtime_ns}"
-    icons = _pictures.setdefault("", bpy.utils.previews.new())
+    if not _thumbnails:
+        _thumbnails.append(bpy.utils.previews.new())
+    icons = _thumbnails[0]
     return int((icons.get(key) or icons.load(key, str(path), "IMAGE")).icon_id)
 
 
-def _free_pictures() -> None:
-    while _pictures:
-        bpy.utils.previews.remove(_pictures.popitem()[1])
+def _free_thumbnails() -> None:
+    while _thumbnails:
+        bpy.utils.previews.remove(_thumbnails.pop())
 
 
 def show(story: Storyboard | None) -> None:
@@ -74,7 +76,7 @@ def show(story: Storyboard | None) -> None:
     panel = bpy.context.window_manager.firetwin_story
     chosen = panel.shots[panel.index].name if panel.index < len(panel.shots) else ""
     panel.shots.clear()
-    _free_pictures()
+    _free_thumbnails()
     for shot in story.shots if story else ():
         item = panel.shots.add()
         item.name, item.picture, item.seconds = shot.name, shot.picture, shot.seconds
@@ -149,7 +151,8 @@ class FIRETWIN_UL_story(bpy.types.UIList):
         active_property: str,
     ) -> None:
         row = layout.row(align=True)
-        shown = {"icon_value": item.icon} if item.icon else {"icon": _ICONS.get(item.picture, "IMAGE_DATA")}
+        kind = "FONT_DATA" if item.picture == CARD else "IMAGE_DATA"
+        shown = {"icon_value": item.icon} if item.icon else {"icon": kind}
         row.label(text=item.name, **shown)
         length = row.row()
         length.alignment = "RIGHT"
@@ -376,7 +379,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Remove the list of shots, and free its thumbnails."""
-    _free_pictures()
+    _free_thumbnails()
     del bpy.types.WindowManager.firetwin_story
 
 

@@ -1,5 +1,6 @@
 """Panel of stories: the list mirrors the storyboard in the folder, and edits are written into it."""
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -7,9 +8,10 @@ import bpy
 import firetwin
 import pytest
 import whole_run
+from bpy.utils import previews
 from firetwin.jobs.worker import StoppedError
 from firetwin.shot.settings import scene_file as file
-from firetwin.story import film, panel, sequencer, story_file
+from firetwin.story import film, panel, scenes, sequencer, story_file
 from firetwin.story.pictures import ShotPictures
 from firetwin.ui import job, scene_file, working
 
@@ -41,7 +43,7 @@ def story(scene, folder):
     path.write_text(before)
     firetwin.unregister()
     assert not hasattr(bpy.types.WindowManager, "firetwin_story")
-    assert not panel._pictures
+    assert not panel._thumbnails
 
 
 def _listed():
@@ -96,7 +98,18 @@ def test_a_render_is_stopped_and_finished_pictures_stay_and_are_shown(story, mon
     with pytest.raises(StoppedError):
         work.run()
     assert picture.is_file()
-    assert [key.rpartition(" ")[0] for key in panel._pictures[""]] == [str(picture)]
+    assert [key.rpartition(" ")[0] for key in panel._thumbnails[0]] == [str(picture)]
+
+
+def test_thumbnails_share_a_collection(story, tmp_path, monkeypatch):
+    board, made, new = replace(story_file.read(story), path=tmp_path / story.name), [], previews.new
+    monkeypatch.setattr(previews, "new", lambda: made.append(new()) or made[-1])
+    for shot in board.shots[:3]:
+        picture = tmp_path / scenes.FOLDER / shot.name / "map" / f"{shot.name}.png"
+        picture.parent.mkdir(parents=True)
+        picture.write_bytes(b"picture")
+    panel.show(board)
+    assert [len(each) for each in made] == [3]
 
 
 def test_one_shot_is_rendered_without_the_film(story, monkeypatch):
