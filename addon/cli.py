@@ -37,7 +37,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
     arguments = parse(list(sys.argv[1:] if argv is None else argv))
     if sys.platform == "win32":
-        for stream in (sys.stdout, sys.stderr):  # code pages lack most letters of file names
+        for stream in (sys.stdout, sys.stderr):  # code pages do not have most letters of file names
             if isinstance(stream, io.TextIOWrapper):
                 stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     elif isinstance(sys.stdout, io.TextIOWrapper):

@@ -280,7 +280,7 @@ def _converse(
     """Send the work, pass on progress and messages, and return the last answer; `_NONE` without one."""
     assert child.stdin is not None
     assert child.stdout is not None
-    call = pickle.dumps(pickle.dumps(work))
+    call = pickle.dumps(pickle.dumps(work))  # the child reads bytes, and imports what they need later
     try:
         child.stdin.write(call)
         child.stdin.flush()

@@ -22,14 +22,13 @@ from ..scene.smoke import illumination
 from ..shot.sections.thermal import BANDS
 from ..shot.shot import Shot
 from ..smoke import shutter
-from . import composite, flame_distance, rays, smoke_range
+from . import composite, flame_distance, opaque_smoke, rays, smoke_range
 from .flame_distance import FlameCells
 from .surfaces import Channels
 
 Array = NDArray[np.float32]
 
 _STEP = 0.5  # voxels, step of the ray march
-_STEP_OF_MASKS, _OPAQUE = 1.0, 12.0  # voxels; optical depth, which transmits 6e-6 of the light
 _SPARSE, _HIDES = 16, 3.0  # pixels between rays; optical depth that transmits 5 % of light
 _FARTHEST, _NEAREST, _TAPS = 2.0e4, 1.0e-3, 48  # m; nearest distance over the surface's; distances of masks
 _THIN = 0.9  # transmittance of flames below which more detail may show that they are opaque
@@ -276,8 +275,8 @@ class Eye:
         if not self.smoke:
             return pixels
         factor = illumination.extinction_factor(self.stage)
-        how = {"step": _STEP_OF_MASKS, "max_depth": _OPAQUE / max(factor, 1.0e-6)}
-        depth = volume.optical_depth(self.smoke, *_lines(self.rays), ends.ravel(), **how)
+        lines, most = _lines(self.rays), opaque_smoke.DEPTH / max(factor, 1.0e-6)
+        depth = volume.optical_depth(self.smoke, *lines, ends.ravel(), smoke_range.STEP, most)
         return pixels * np.exp(-depth * factor).reshape(*self.shape, 1)
 
     def smoke_range(self, clear: Array) -> Array:
@@ -294,8 +293,9 @@ class Eye:
     def _flames_before(self, ends: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Return the distances (h, w) up to opaque flames or `ends`, m, and a mask of the opaque flames."""
         first, burning, near = ends.copy(), np.zeros(self.shape, bool), self._near_flames.copy()
-        near[near] = self._through_flames(self.outline, near, ends[near][:, None])[:, 0] < _THIN
-        at = np.minimum(ends[near], _FARTHEST)[:, None] * np.geomspace(_NEAREST, 1.0, _TAPS)
+        reached = np.minimum(ends, _FARTHEST)[..., None]
+        near[near] = self._through_flames(self.outline, near, reached[near])[:, 0] < _THIN
+        at = reached[near] * np.geomspace(_NEAREST, 1.0, _TAPS)
         opaque = self._through_flames(self.flames, near, at) < masks.HIDES
         burning[near] = opaque[:, -1]
         first[near] = np.where(opaque[:, -1], at[np.arange(len(at)), opaque.argmax(axis=1)], first[near])
@@ -303,7 +303,7 @@ class Eye:
 
     def _through_flames(self, flames: FlameVolume | None, chosen: NDArray[np.bool_], at: Array) -> Array:
         """Return the transmittance (n, taps) of flames up to distances (n, taps) in chosen pixels (h, w)."""
-        lines, at = _chosen(self.rays, chosen), np.minimum(at, _FARTHEST)
+        lines = _chosen(self.rays, chosen)
         return volume.march([], *lines, at, self._light, _STEP, flames=flames)[..., 3]
 
     def hidden_by_near_smoke(self, near: float) -> float:

@@ -21,7 +21,8 @@ class FrameCost:
     Attributes
     ----------
     seconds
-        Processor seconds of all threads by part. Smoke that is painted ahead counts to the part meanwhile.
+        Processor seconds of all threads by part. Smoke that is painted ahead counts to the part that
+        runs meanwhile.
     clock
         Seconds by the clock, of whole frames.
 

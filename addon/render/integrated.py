@@ -114,8 +114,9 @@ class IntegratedRenderer:
         frame = pictures[first].frame
         infrared = any(each.shading == "radiance" and not each.geometry_only for each in shared)
         flames, outline = flames_of(frame)
-        cells = cells_of(frame) if "rgb" in pictures else None
+        cells = None
         if "rgb" in pictures:
+            cells = cells_of(frame)
             self._set_distances(cells, smoke)
         with self.cost.part(frame_cost.SURFACES):
             rendered = surfaces.render(self.scene, [first], part, infrared=infrared)
@@ -158,7 +159,7 @@ class IntegratedRenderer:
             return flames, flames if view.width <= _OUTLINE else build(columns=_OUTLINE)
 
     def _measure_cells(self, flames: FlameVolume | None) -> flame_distance.FlameCells | None:
-        """Measure the flames in each cell of the picture; None without flames or one perspective picture."""
+        """Measure the flames in each cell of the picture; None without flames, or cells."""
         if flames is None or not self._has_cells:
             return None
         (view,) = self.shot.paths
@@ -184,7 +185,7 @@ class IntegratedRenderer:
 
     @property
     def _has_cells(self) -> bool:
-        """Whether the picture is a single one in perspective."""
+        """True for one picture in perspective: surfaces read cells by their place in it."""
         return not self.scene.render.use_multiview and self._camera.data.type == "PERSP"
 
     def _blurred(self, eye: Eye, text: surfaces.Channels | None, frame: int) -> Array:

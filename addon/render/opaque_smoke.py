@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from ..geometry.grids import dilate
 from ..smoke import shutter
-from . import flame_distance, rays
+from . import flame_distance, rays, smoke_range
 
 _CELL = 8  # pixels along a cell
 _AROUND = 2  # cells: the farthest smoke of those around counts
-_DEPTH = 12.0  # optical depth, which lets 6e-6 of the light through; a march ends at a thousandth
-_STEP = 1.0  # voxels
+DEPTH = 12.0
+"""Optical depth of opaque smoke, which transmits 6e-6 of the light; a march ends at a thousandth."""
 
 
 def measure(
@@ -32,9 +32,9 @@ def measure(
     if extinction <= 0.0:
         return None
     lines = rays.cell_rays(camera, scene, _CELL)
-    flat, depth = lines.directions.reshape(-1, 3), _DEPTH / extinction
+    flat, depth = lines.directions.reshape(-1, 3), DEPTH / extinction
     away = [
-        volume.opaque_distance(moment, lines.origins, flat, _STEP, depth)
+        volume.opaque_distance(moment, lines.origins, flat, smoke_range.STEP, depth)
         for _, moment in shutter.moments(smoke)
     ]
     far = np.max(away, axis=0).reshape(lines.directions.shape[:2])
