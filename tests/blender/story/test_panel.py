@@ -102,14 +102,15 @@ def test_a_render_is_stopped_and_finished_pictures_stay_and_are_shown(story, mon
 
 
 def test_thumbnails_share_a_collection(story, tmp_path, monkeypatch):
-    board, made, new = replace(story_file.read(story), path=tmp_path / story.name), [], previews.new
-    monkeypatch.setattr(previews, "new", lambda: made.append(new()) or made[-1])
+    board, new = replace(story_file.read(story), path=tmp_path / story.name), previews.new
+    opened = []
+    monkeypatch.setattr(previews, "new", lambda: opened.append(new()) or opened[-1])
     for shot in board.shots[:3]:
         picture = tmp_path / scenes.FOLDER / shot.name / "map" / f"{shot.name}.png"
         picture.parent.mkdir(parents=True)
         picture.write_bytes(b"picture")
     panel.show(board)
-    assert [len(each) for each in made] == [3]
+    assert [len(each) for each in opened] == [3]
 
 
 def test_one_shot_is_rendered_without_the_film(story, monkeypatch):
