@@ -57,7 +57,7 @@ public:
       cannot_write(target_);
     }
     std::error_code code;
-    fs::rename(temporary_, target_, code);
+    system::rename(temporary_, target_, code);
     if (code) {
       cannot_write(target_, code);
     }

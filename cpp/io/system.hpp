@@ -32,4 +32,9 @@ std::filesystem::path canonical(const std::filesystem::path& path, std::error_co
 /// Flushes a file to the disk. Returns false with errno set on failure.
 bool sync(const std::filesystem::path& path);
 
+/// Renames a file, and replaces one of the new name. Sets `code` on failure. Windows refuses this
+/// while a program has either file open; it is repeated for 1.5 s, as by files.replace() of Python.
+void rename(const std::filesystem::path& from, const std::filesystem::path& to,
+            std::error_code& code);
+
 } // namespace firetwin::io::system

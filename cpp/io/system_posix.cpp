@@ -54,5 +54,10 @@ bool sync(const std::filesystem::path& path) {
   return done && closed;
 }
 
+void rename(const std::filesystem::path& from, const std::filesystem::path& to,
+            std::error_code& code) {
+  std::filesystem::rename(from, to, code);
+}
+
 } // namespace firetwin::io::system
 #endif

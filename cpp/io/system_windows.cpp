@@ -89,5 +89,17 @@ bool sync(const std::filesystem::path& path) {
   return done && closed;
 }
 
+void rename(const std::filesystem::path& from, const std::filesystem::path& to,
+            std::error_code& code) {
+  std::filesystem::rename(from, to, code);
+  for (const DWORD wait : {50U, 100U, 200U, 400U, 800U}) {
+    if (code != std::errc::permission_denied) {
+      return;
+    }
+    ::Sleep(wait); // ms
+    std::filesystem::rename(from, to, code);
+  }
+}
+
 } // namespace firetwin::io::system
 #endif
