@@ -115,7 +115,8 @@ def ended(out: Path) -> list[int | None]:
     """Exit status of every attempt at a task; None of those that were killed."""
     found = []
     for path in sorted((out / "farm" / "entries").glob("*.jsonl")):
-        last = json.loads(path.read_text().splitlines()[-1])
+        lines = path.read_text().splitlines()  # none while the file is being started
+        last = json.loads(lines[-1]) if lines else None
         found.append(last.get("ended") if isinstance(last, dict) else None)
     return found
 
