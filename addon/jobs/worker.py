@@ -11,6 +11,7 @@ import contextlib
 import os
 import pickle
 import queue
+import shutil
 import signal
 import subprocess
 import sys
@@ -443,9 +444,14 @@ def _as_firetwin_error(error: Exception) -> Error:
 def _read_calls(source: IO[bytes], calls: queue.SimpleQueue[bytes]) -> None:
     """Read calls of the parent; end this process when the parent closes the pipe or ends.
 
-    Blender as a module may crash while the interpreter shuts down, so nothing is shut down.
+    Blender as a module may crash while the interpreter shuts down, so nothing is shut down, but the folder of
+    temporary files that Blender made is removed.
     """
     with contextlib.suppress(EOFError, pickle.UnpicklingError):
         while True:
             calls.put(pickle.load(source))
+    with contextlib.suppress(KeyError, AttributeError):  # without Blender, or while it is being loaded
+        folder = Path(sys.modules["bpy"].app.tempdir)
+        if folder.name.startswith("blender_"):  # else the folder that all programs share
+            shutil.rmtree(folder, ignore_errors=True)
     os._exit(0)

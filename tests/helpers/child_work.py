@@ -24,6 +24,13 @@ def kind_of_stdin(progress, tell):
     return stat.S_IFMT(os.fstat(0).st_mode)
 
 
+def folder_of_blender(progress, tell):
+    """Return the folder of Blender's temporary files."""
+    import bpy
+
+    return bpy.app.tempdir
+
+
 def number(progress, tell):
     """Return the number of the process."""
     return os.getpid()

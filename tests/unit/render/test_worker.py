@@ -53,6 +53,12 @@ def test_a_process_does_several_works_until_one_fails(monkeypatch):
     assert child.poll() is not None
 
 
+def test_a_process_of_blender_leaves_no_folder(monkeypatch):
+    """Blender removes its folder only when it is shut down, which this process never is."""
+    child_work.importable(monkeypatch)
+    assert not Path(worker.run(child_work.folder_of_blender)).exists()
+
+
 @pytest.mark.parametrize(("code", "kind"), [(errno.ENOSPC, FullDiskError), (errno.EROFS, InputError)])
 def test_a_log_that_cannot_be_written_is_one_line(monkeypatch, code, kind):
     def fail(**_):
