@@ -210,7 +210,7 @@ def _made_of(source: dict[str, Any]) -> list[str]:
         return []
     return [
         "",
-        f"Made from {source.get('model')}",
+        f"Made from {source['model']}" if "model" in source else "Assumptions",
         *(f"  - {text}" for text in source.get("assumptions", [])),
     ]
 

@@ -73,6 +73,11 @@ def test_the_page_says_what_is_needed(run):
     assert all(len(line) == len(line.rstrip()) for line in page.splitlines())
 
 
+def test_assumptions_are_listed_of_a_run_without_a_model(run):
+    facts = info.gather(run, ZONE) | {"source": {"assumptions": ["terrain: invented"]}}
+    assert info.page(facts).endswith("\nAssumptions\n  - terrain: invented")
+
+
 def test_a_fire_that_is_not_known_has_no_reports(make_run):
     run = runs.open(make_run(toml=RUN_TOML.replace('event = "king_fire"\n', "")))
     facts = info.gather(run, ZONE)
