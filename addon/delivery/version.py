@@ -132,7 +132,7 @@ def _point(out: Path, version: str, overwrite: bool) -> None:
     """Point the link `latest` to a version; a text file names it where links are not possible."""
     link = out / LATEST
     if link.is_symlink() or not link.exists():
-        with contextlib.suppress(OSError, NotImplementedError), unfinished.folder(link) as part:
+        with unfinished.folder(link) as part, contextlib.suppress(OSError, NotImplementedError):
             (part / LATEST).symlink_to(version, target_is_directory=True)
             (part / LATEST).replace(link)
             return

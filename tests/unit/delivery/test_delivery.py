@@ -194,6 +194,19 @@ def test_deliveries_of_processes_get_numbers_of_their_own_and_remove_rests(finis
     assert len({len([*each.rglob("*")]) for each in out.glob("v*")}) == 1
 
 
+def test_a_text_names_the_latest_version_where_links_are_not_possible(finished, tmp_path, monkeypatch):
+    def fail(*_, **__):
+        raise OSError("no right to make links")
+
+    monkeypatch.setattr(Path, "symlink_to", fail)
+    chosen, out = names.choose(finished, PATTERN, 1001), tmp_path / "delivered"
+    for _ in range(2):
+        version.write(out, chosen)
+    assert (out / "latest.txt").read_text() == "v002\n"
+    assert {path.name for path in out.iterdir()} >= {"v001", "v002"}
+    assert not (out / "latest").exists()
+
+
 def test_a_link_latest_of_others_stays(finished, tmp_path):
     out, mine = tmp_path / "delivered", tmp_path / "mine"
     out.mkdir()
