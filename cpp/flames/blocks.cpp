@@ -391,7 +391,7 @@ __attribute__((always_inline)) inline void FlameBlock::add_coarse(const Level& l
 }
 
 const FlameBlock::Level& FlameBlock::level(int number) const {
-  std::call_once(built_, [this] { build_levels(); });
+  tbb::collaborative_call_once(built_, [this] { build_levels(); });
   return levels_[static_cast<std::size_t>(number - 1)];
 }
 

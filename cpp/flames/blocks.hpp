@@ -2,10 +2,11 @@
 
 #include "base/simd.hpp"
 
+#include <oneapi/tbb/collaborative_call_once.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <span>
 #include <vector>
 
@@ -100,7 +101,7 @@ private:
   /// 1 if something burns in a cube of cells or in its neighbours until the next frame.
   std::vector<std::uint8_t> burning_; // [frame][up][along][across]
   std::array<std::int64_t, 3> cubes_{};
-  mutable std::once_flag built_;
+  mutable tbb::collaborative_once_flag built_;
   mutable std::array<Level, levels> levels_;
 };
 

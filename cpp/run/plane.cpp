@@ -69,7 +69,7 @@ void Plane::narrow(std::span<const double> values, std::span<float> out) const {
 
 const std::vector<float>& Plane::values() const {
   if (file_ || make_) {
-    std::call_once(once_, [this] { values_ = read_all(); });
+    tbb::collaborative_call_once(once_, [this] { values_ = read_all(); });
   }
   return values_;
 }

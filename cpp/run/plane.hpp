@@ -2,11 +2,12 @@
 
 #include "run/npy.hpp"
 
+#include <oneapi/tbb/collaborative_call_once.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -55,7 +56,7 @@ private:
   double zero_ = 0.0;
   std::optional<NpyFile> file_;
   Make make_;
-  mutable std::once_flag once_;
+  mutable tbb::collaborative_once_flag once_; // std::once_flag hangs after an error with MinGW
   mutable std::vector<float> values_;
 };
 

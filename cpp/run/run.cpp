@@ -285,7 +285,7 @@ std::pair<float, float> Run::flux_range() const {
 }
 
 const Plane& Run::own_arrival_time() const {
-  std::call_once(arrival_once_, [this] {
+  tbb::collaborative_call_once(arrival_once_, [this] {
     own_arrival_.emplace(folder_.field_file("fuel_arrival_time"), fuel_latitude_.size(),
                          fuel_longitude_.size(), no_data_, description_.zero_s);
   });

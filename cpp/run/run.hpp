@@ -11,7 +11,6 @@
 
 #include <atomic>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -108,7 +107,7 @@ private:
   mutable tbb::collaborative_once_flag once_;
   mutable std::optional<Scan> scan_;
   mutable std::atomic<bool> scanned_ = false;
-  mutable std::once_flag arrival_once_;
+  mutable tbb::collaborative_once_flag arrival_once_;
   mutable std::optional<Plane> own_arrival_;
 };
 

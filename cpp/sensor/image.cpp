@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <mutex>
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
@@ -74,11 +73,11 @@ std::string detect_format(const std::filesystem::path& path) {
 }
 
 void set_limits() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    OIIO::attribute("limits:imagesize_MB", max_megabytes);
-    OIIO::attribute("limits:channels", max_channels);
-  });
+  static const bool set = OIIO::attribute("limits:imagesize_MB", max_megabytes) &&
+                          OIIO::attribute("limits:channels", max_channels);
+  if (!set) {
+    throw std::logic_error("OpenImageIO lacks limits");
+  }
 }
 
 constexpr float half_max = 65504.0F;

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <ostream>
 #include <sstream>
@@ -59,8 +58,7 @@ constexpr std::string_view fixed_uuid = "00000000-0000-0000-0000-000000000000";
 
 /// Makes the grid without leaf values.
 openvdb::FloatGrid::Ptr fog_volume(const FogGrid& fog, const openvdb::FloatTree::Ptr& tree) {
-  static std::once_flag once;
-  std::call_once(once, [] { openvdb::initialize(); });
+  openvdb::initialize();
   const openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(0.0F);
   const openvdb::math::Transform::Ptr transform =
       openvdb::math::Transform::createLinearTransform(fog.voxel_size);

@@ -72,6 +72,20 @@ def test_no_data_becomes_nan(make_run, form):
     assert any("heat_flux has no value 1 times" in w for w in run.warnings)
 
 
+def test_a_field_that_could_not_be_read_is_read_again(make_run):
+    folder = make_run()
+    run = runs.open(folder)
+    path = folder / "surface_fuel.npy"
+    whole = path.read_bytes()
+    with path.open("r+b") as file:
+        file.truncate(len(whole) - 1)
+    for _ in range(2):
+        with pytest.raises(core.InputError, match=r"surface_fuel\.npy"):
+            run.surface_fuel  # noqa: B018
+    path.write_bytes(whole)
+    np.testing.assert_array_equal(run.surface_fuel, small_fields()["surface_fuel"])
+
+
 def test_descending_axes(make_run):
     fields = small_fields()
     run = runs.open(
