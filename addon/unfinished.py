@@ -10,6 +10,8 @@ import contextlib
 import os
 import re
 import shutil
+import sys
+import time
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,10 +19,40 @@ from pathlib import Path
 
 from .errors import writing
 
-try:
+if sys.platform == "win32":
+    import _winapi
+
+    _ADD_FILE, _SHARE_READ_DELETE, _OPEN_FOLDERS = 0x2, 0x1 | 0x4, 0x02000000  # of CreateFileW
+    _WAIT = 0.05  # s
+    _unlock = _winapi.CloseHandle
+
+    def _lock(folder: Path, wait: bool) -> int | None:
+        """Open a folder to add files, as which nobody else can then open it; it can be listed and renamed."""
+        while True:
+            try:
+                return _winapi.CreateFile(
+                    str(folder), _ADD_FILE, _SHARE_READ_DELETE, 0, _winapi.OPEN_EXISTING, _OPEN_FOLDERS, 0
+                )
+            except FileNotFoundError:
+                raise
+            except OSError:
+                if not wait:
+                    return None
+                time.sleep(_WAIT)
+
+else:
     import fcntl
-except ImportError:  # Windows: temporary folders of killed processes stay
-    fcntl = None  # type: ignore[assignment]
+
+    _unlock = os.close
+
+    def _lock(folder: Path, wait: bool) -> int | None:
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+        except OSError:  # also file systems without locks
+            os.close(handle)
+            return None
+        return handle
 
 
 @contextmanager
@@ -70,16 +102,9 @@ def rests(folder: Path, pattern: str) -> list[str]:
 @contextmanager
 def locked(folder: Path, wait: bool = False) -> Iterator[bool]:
     """Lock a folder until the end of the block or of the process; False if another process has it."""
-    if fcntl is None:
-        yield wait
-        return
-    handle = os.open(folder, os.O_RDONLY)
+    handle = _lock(folder, wait)
     try:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-            is_alone = True
-        except OSError:  # also file systems without locks
-            is_alone = False
-        yield is_alone
+        yield handle is not None
     finally:
-        os.close(handle)
+        if handle is not None:
+            _unlock(handle)
