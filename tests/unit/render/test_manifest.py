@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import os
 from pathlib import Path
 
 import doors
@@ -82,7 +83,7 @@ def test_a_damaged_manifest_is_one_line_of_each_command(content, table, name, ke
     Path("film", manifest.NAME).write_text(json.dumps(damaged))
     for words in COMMANDS:
         status, (*_, line) = call(words)
-        assert (status, line.partition("manifest.json: ")[0]) == (1, "firetwin: film/"), words
+        assert (status, line.partition("manifest.json: ")[0]) == (1, f"firetwin: film{os.sep}"), words
         assert "is not as Firetwin writes it" in line
 
 

@@ -34,7 +34,7 @@ def replace(out, **how):
 
 def content(folder):
     paths = (path for path in folder.rglob("*") if path.is_file() and path.name != written.NAME)
-    return {str(path.relative_to(folder)): path.read_text() for path in paths}
+    return {path.relative_to(folder).as_posix(): path.read_text() for path in paths}
 
 
 def test_new_files_replace_old_ones_and_others_stay(tmp_path):
