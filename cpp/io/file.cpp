@@ -13,15 +13,21 @@
 namespace firetwin::io {
 
 File::File(std::filesystem::path path) : path_(std::move(path)) {
+  constexpr auto irregular = "is not a regular file; replace it with a file that holds the data";
   descriptor_ = system::open(path_);
   if (descriptor_ < 0) {
-    fail(path_, errno == ENOENT ? "the file is missing; check the folder and the name"
-                                : std::string("cannot be opened: ") + std::strerror(errno));
+    std::error_code ignored;
+    const int error = errno;
+    if (std::filesystem::is_directory(path_, ignored)) { // Windows does not open folders
+      fail(path_, irregular);
+    }
+    fail(path_, error == ENOENT ? "the file is missing; check the folder and the name"
+                                : std::string("cannot be opened: ") + std::strerror(error));
   }
   const auto size = system::size(descriptor_);
   if (!size) {
     system::close(descriptor_);
-    fail(path_, "is not a regular file; replace it with a file that holds the data");
+    fail(path_, irregular);
   }
   size_ = *size;
 }

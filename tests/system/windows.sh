@@ -79,9 +79,10 @@ prepare() {
   fi
 }
 
-# Tests read their own files without naming UTF-8, which is Linux' default.
+# Two processes. Tests read their own files without naming UTF-8, which is Linux' default.
 test_room() { # folder pytest-argument...
-  run -X utf8 -m pytest -q -p no:cacheprovider -p no:zarr -o addopts="-ra --strict-markers --import-mode=importlib" "$@"
+  run -X utf8 -m pytest -q -p no:cacheprovider -p no:zarr -o addopts="-ra --strict-markers --import-mode=importlib" \
+    --dist worksteal --tx "2*popen//python=Z:$python/python.exe -X utf8" "$@"
 }
 
 try() { run tests/system/package/windows.py "$@"; }

@@ -1,5 +1,7 @@
 """Runs that are wrong: one clear error each, naming the file, the place and what to do."""
 
+from pathlib import Path
+
 import firetwin_core as core
 import numpy as np
 import pytest
@@ -11,7 +13,7 @@ def refuse(folder, file, reason, line=0, column=0):
     with pytest.raises(core.InputError, match=reason) as caught:
         runs.open(folder)
     error = caught.value
-    assert error.path.endswith(file)
+    assert Path(error.path).as_posix().endswith(file)
     assert (error.line, error.column) == (line, column)
     assert error.reason in str(error)
     assert "\n" not in str(error)
