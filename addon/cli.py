@@ -8,6 +8,7 @@ answer at once.
 from __future__ import annotations
 
 import argparse
+import errno
 import functools
 import io
 import os
@@ -50,13 +51,22 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("\nfiretwin: stopped; finished files stay", file=sys.stderr)
         return 130
-    except BrokenPipeError:  # such as `firetwin info RUN | head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
     except Exception as error:
+        if _reader_has_gone(error):  # such as `firetwin info RUN | head`
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return 1
         if arguments.debug:
             raise
         return _report(error)
+
+
+def _reader_has_gone(error: Exception) -> bool:
+    """Check for an error of a pipe that is no longer read; on Windows it is an invalid argument."""
+    return isinstance(error, BrokenPipeError) or (
+        sys.platform == "win32"
+        and isinstance(error, OSError)
+        and (error.errno, error.filename) == (errno.EINVAL, None)
+    )
 
 
 @functools.cache

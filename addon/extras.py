@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import shlex
+import subprocess
 import sys
 
 EXTRAS = {
@@ -38,4 +39,5 @@ def install_packages(*packages: str) -> str:
     """Return the command that installs packages, and holds NumPy: Blender's module needs its version."""
     import numpy as np
 
-    return shlex.join([sys.executable, "-m", "pip", "install", *packages, f"numpy=={np.__version__}"])
+    words = [sys.executable, "-m", "pip", "install", *packages, f"numpy=={np.__version__}"]
+    return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)

@@ -218,7 +218,7 @@ def test_an_imager_says_what_is_in_its_way(make_run, tmp_path, capfd):
         np.save(folder / f"{name}.npy", values - (159.5 if name.endswith("longitude") else 0.0))
     out.write_text("a file")
     assert cli.main(["imager", str(folder), "--instrument", "viirs", "--out", str(out / "deeper")]) == 1
-    assert f"firetwin: {out}/deeper/viirs_" in (said := capfd.readouterr().err.splitlines()[-1])
+    assert f"firetwin: {out / 'deeper' / 'viirs_'}" in (said := capfd.readouterr().err.splitlines()[-1])
     assert said.endswith("cannot be written (Not a directory); choose another folder")
 
 
@@ -381,6 +381,20 @@ def test_a_reader_that_has_gone_is_no_traceback():
         process.stdout.close()
         assert process.stderr.read() == b""
     assert process.returncode == 1
+
+
+@pytest.mark.parametrize(
+    ("platform", "error", "has_gone"),
+    [
+        ("linux", BrokenPipeError(32, "Broken pipe"), True),
+        ("win32", OSError(22, "Invalid argument"), True),
+        ("win32", OSError(22, "Invalid argument", "a.png"), False),
+        ("linux", OSError(22, "Invalid argument"), False),
+    ],
+)
+def test_a_reader_that_has_gone_is_not_reported(monkeypatch, platform, error, has_gone):
+    monkeypatch.setattr(sys, "platform", platform)
+    assert cli._reader_has_gone(error) is has_gone
 
 
 @pytest.mark.parametrize("names", [(), ("a.png",), ("a.png", None, "b.png")])

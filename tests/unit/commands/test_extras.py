@@ -2,7 +2,6 @@
 
 import importlib.metadata
 import re
-import shlex
 import sys
 import tomllib
 from pathlib import Path
@@ -25,8 +24,11 @@ def test_packages_are_those_of_the_project(extra):
 def test_a_command_names_the_extra_and_holds_numpy(monkeypatch):
     held = f"numpy=={np.__version__}"
     monkeypatch.setattr(importlib.metadata, "distribution", lambda name: name)
-    expected = [sys.executable, "-m", "pip", "install", "firetwin[models]", held]
-    assert shlex.split(extras.install("models")) == expected
+    monkeypatch.setattr(sys, "executable", "C:/Program Files/python")
+    for platform, python in (("linux", "'C:/Program Files/python'"), ("win32", '"C:/Program Files/python"')):
+        monkeypatch.setattr(sys, "platform", platform)
+        brackets = "'firetwin[models]'" if platform == "linux" else "firetwin[models]"
+        assert extras.install("models") == f"{python} -m pip install {brackets} {held}"
     monkeypatch.setitem(sys.modules, "netCDF4", None)
     with pytest.raises(Error, match=re.escape(extras.install("models"))):
         optional_packages.package("netCDF4")

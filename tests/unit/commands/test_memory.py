@@ -59,7 +59,8 @@ def test_the_peak_stays_when_memory_is_free_again():
 
 
 def test_free_memory_is_a_part_of_all():
-    assert 1e7 < memory.free() < os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    size = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") if os.name == "posix" else 1e13
+    assert 1e7 < memory.free() < size
 
 
 def test_a_bake_with_little_memory_does_one_frame_at_a_time(monkeypatch):

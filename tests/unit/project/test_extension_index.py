@@ -22,9 +22,10 @@ PLATFORMS = {
     "windows-x64": "win_amd64",
 }
 
-pytestmark = pytest.mark.skipif(
-    importlib.util.find_spec("bpy") is None, reason="the command comes with Blender"
-)
+pytestmark = [
+    pytest.mark.posix("need of index.py, which lists the zips on Linux"),
+    pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="the command comes with Blender"),
+]
 
 
 @pytest.fixture(scope="module")
