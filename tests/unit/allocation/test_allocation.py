@@ -365,7 +365,7 @@ def test_a_run_without_fire_has_nothing_to_allocate_to(make_run):
 
 def test_without_scipy_it_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "scipy.optimize", None)
-    with pytest.raises(Error, match=r"needs the Python package scipy.*pip install 'firetwin\[resources\]'"):
+    with pytest.raises(Error, match=r"needs the Python package scipy.*pip install '?firetwin\[resources\]"):
         containment.solve(simple())
 
 

@@ -34,7 +34,7 @@ def opened(folder):
 def holder(tmp_path):
     """A process that works alone, with its lease."""
     with subprocess.Popen([sys.executable, "-c", HOLD, tmp_path / "lock"], stdout=subprocess.PIPE) as process:
-        assert process.stdout.readline() == b"True\n"
+        assert process.stdout.readline().strip() == b"True"
         yield process, tmp_path / "lock"
         process.kill()
 

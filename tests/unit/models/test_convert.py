@@ -238,7 +238,7 @@ def test_a_missing_package_is_one_line(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "netCDF4", None)
     with pytest.raises(
         Error,
-        match=r"needs the Python package netCDF4; install it with: .*-m pip install 'firetwin\[models\]'",
+        match=r"needs the Python package netCDF4; install it with: .*-m pip install '?firetwin\[models\]",
     ):
         in_process(paths, tmp_path / "out")
 

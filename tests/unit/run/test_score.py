@@ -306,7 +306,7 @@ def test_the_command_as_a_table_and_as_json(round_run, tmp_path):
 
 def test_without_shapely_the_command_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "shapely", None)
-    with pytest.raises(UsageError, match=r"pip install 'firetwin\[score\]'"):
+    with pytest.raises(UsageError, match=r"pip install '?firetwin\[score\]"):
         shapes.needed()
 
 
