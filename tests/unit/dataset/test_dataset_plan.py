@@ -147,7 +147,7 @@ def test_the_example_shows_every_key_with_its_default(tmp_path):
     text = (ROOT / "examples/dataset.toml").read_text()
     example = tomllib.loads(text.replace('run = "out/sample"', f'run = "{tmp_path.as_posix()}"'))
     assert set(example["draws"]) == set(VALUES)
-    (tmp_path / "plan.toml").write_text(text.replace("out/sample", str(tmp_path)))
+    (tmp_path / "plan.toml").write_text(text.replace("out/sample", tmp_path.as_posix()))
     plan = plan_file.read(tmp_path / "plan.toml")
     bare = Plan(path=plan.path, runs=plan.runs, count=plan.count, seed=plan.seed)
     assert plan == bare
