@@ -91,7 +91,8 @@ def arrival(spread: Spread, number: int) -> NDArray[np.float32]:
         return np.where(np.isfinite(spread.arrival), spread.arrival, np.inf).astype(np.float32)
     rng = np.random.default_rng([SEED, number])
     moisture, turn = rng.normal(0.0, MOISTURE), rng.normal(0.0, TURN)
-    wind = np.angle(np.exp(1j * spread.heading[spread.arrival > 0.0]).mean())
+    heading = spread.heading[spread.arrival > 0.0]
+    wind = np.arctan2(np.sin(heading).mean(), np.cos(heading).mean())
     turned = np.cos(spread.heading - wind - turn) - np.cos(spread.heading - wind)
     rate = spread.rate * np.exp(moisture + LOCAL * _field(rng) + WIND * turned)
     burned = spread.arrival <= 0.0
