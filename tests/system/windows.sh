@@ -24,7 +24,7 @@ declare -A blender=([3.11]=4.5.15 [3.13]=5.2.3)
 if [[ -z ${DISPLAY:-} ]]; then
   exec xvfb-run --auto-servernum "$0" "$@"
 fi
-export WINEPREFIX=$work/prefix WINEDEBUG=-all WINEDLLOVERRIDES="mscoree=;mshtml=" PYTHONDONTWRITEBYTECODE=1
+export WINEPREFIX=$work/prefix WINEDEBUG=-all WINEDLLOVERRIDES="mscoree=;mshtml=;winedbg.exe=d" PYTHONDONTWRITEBYTECODE=1
 unset PYTHONPATH
 
 # Packages that the wheels and the tests need. pip of Linux evaluates markers for Linux, so those are left out.
