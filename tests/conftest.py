@@ -37,12 +37,24 @@ if sys.dont_write_bytecode:  # worker and child processes would compile all modu
 WINDOWS = sys.platform == "win32"
 if WINDOWS:  # a test that calls one of these is skipped there
 
+    def _is_of_a_test() -> bool:
+        return Path(__file__).parent in Path(sys._getframe(2).f_code.co_filename).parents
+
     def _skip(*_, **__):
-        if Path(__file__).parent in Path(sys._getframe(1).f_code.co_filename).parents:
+        if _is_of_a_test():
             pytest.skip("Windows has no fork, no pipes among files, and no links without special rights")
         raise OSError("no links")
 
+    def _unlink(path, missing_ok=False, unlink=Path.unlink):
+        try:
+            unlink(path, missing_ok)
+        except PermissionError:
+            if _is_of_a_test():
+                pytest.skip("Windows removes no file that is open")
+            raise
+
     Path.symlink_to = os.mkfifo = os.fork = _skip
+    Path.unlink = _unlink
     if hasattr(ctypes.windll.ntdll, "wine_get_version"):  # lacks functions of C, and wakes of event loops
         sys.modules["netCDF4"] = sys.modules["zarr"] = None
 

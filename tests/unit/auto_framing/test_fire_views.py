@@ -216,7 +216,7 @@ def test_new_writes_the_views_and_replaces_none(tmp_path, capsys, monkeypatch):
     assert cli.main(["new", "run", "--views"]) == 0
     assert (tmp_path / "views" / "fire_grass.toml").read_text() == "run = 1\n"
     assert not (tmp_path / "views" / "fire_crown.toml").exists()
-    assert capsys.readouterr().out.splitlines() == ["views/fire_grass.toml"]
+    assert capsys.readouterr().out.splitlines() == [str(Path("views/fire_grass.toml"))]
     (tmp_path / "views" / "fire_grass.toml").write_text("mine\n")
     assert cli.main(["new", "run", "--views"]) == 1
     assert "--overwrite" in capsys.readouterr().err

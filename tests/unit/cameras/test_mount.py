@@ -226,7 +226,7 @@ def test_the_index_lists_frames_that_have_picture_and_sidecar(shot, tmp_path):
                         else "x"
                     )
                     path.write_text(text)
-                    store.add({}, {str(path.relative_to(tmp_path)): describe(path)})
+                    store.add({}, {path.relative_to(tmp_path).as_posix(): describe(path)})
         dataset.write(store)
     assert not (tmp_path / "sat" / dataset.NAME).exists()
     index = json.loads((tmp_path / "drone" / dataset.NAME).read_text())

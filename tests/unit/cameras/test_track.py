@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from filmed import LEVEL, film
 from firetwin import cli
-from firetwin.errors import InputError
+from firetwin.errors import InputError, read_fault
 from firetwin.run import opening as runs
 from firetwin.shot import run_checks
 from firetwin.shot.cameras import track
@@ -203,6 +203,11 @@ def test_a_missing_track_and_a_folder_are_errors(tmp_path):
     (tmp_path / "b.gpx").mkdir()
     with pytest.raises(InputError, match="is a folder; name a file"):
         track.read(tmp_path / "b.gpx")
+
+
+def test_a_folder_without_permission_is_a_folder(tmp_path):
+    """As which Windows refuses to open it."""
+    assert read_fault(PermissionError(13, "Permission denied", str(tmp_path))) == "is a folder; name a file"
 
 
 @given(st.binary(max_size=300), st.sampled_from(["gpx", "kml", "csv"]))

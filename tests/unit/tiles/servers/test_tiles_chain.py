@@ -235,6 +235,7 @@ def test_a_decoder_that_dies_loses_its_tile_alone(chain, monkeypatch, pipe):
     assert len(cut.tiles) == len(whole.tiles) - 3
 
 
+@pytest.mark.posix("limits of the memory of a process")
 def test_a_decoder_over_its_memory_loses_its_tile_alone(chain, monkeypatch):
     leaf, whole = chain.leaf()
     monkeypatch.setattr(decode, "_MEMORY", 300_000_000)

@@ -3,6 +3,7 @@
 import gzip
 import json
 import logging
+import shutil
 import socket
 import threading
 import time
@@ -404,6 +405,7 @@ def test_private_networks_are_allowed_if_asked_for_but_never_this_machine():
     address.Guard(private=False)._check("tiles.example", "93.184.215.14")
 
 
+@pytest.mark.skipif(not shutil.which("openssl"), reason="needs openssl")
 def test_certificates_are_verified(monkeypatch, clock, tmp_path):
     """A server with a self-signed certificate."""
     import ssl

@@ -134,7 +134,11 @@ def test_what_is_not_there(tmp_path, place):
 
 
 @pytest.mark.parametrize(
-    "name", ["../x.glb", "/x.glb", "in/../../x", "in\\x.glb", "C:x.glb", "./x.glb", "in//x.glb"]
+    "name",
+    [
+        *("../x.glb", "/x.glb", "in/../../x", "C:x.glb", "./x.glb", "in//x.glb"),
+        *(["in\\x.glb"] if os.sep == "/" else []),  # zipfile of Windows reads it as in/x.glb
+    ],
 )
 def test_members_that_lead_out_are_refused(tmp_path, name):
     path = zipped(tmp_path / "x.3tz", SET | {name: GLB})
