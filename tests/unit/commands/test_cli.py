@@ -219,7 +219,8 @@ def test_an_imager_says_what_is_in_its_way(make_run, tmp_path, capfd):
     out.write_text("a file")
     assert cli.main(["imager", str(folder), "--instrument", "viirs", "--out", str(out / "deeper")]) == 1
     assert f"firetwin: {out / 'deeper' / 'viirs_'}" in (said := capfd.readouterr().err.splitlines()[-1])
-    assert said.endswith("cannot be written (Not a directory); choose another folder")
+    assert "cannot be written (" in said
+    assert said.endswith("); choose another folder")
 
 
 def test_versions():

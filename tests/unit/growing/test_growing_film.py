@@ -104,7 +104,9 @@ def known(run, tmp_path):
     for count in (2, 3):
         place = tmp_path / str(count) / "run"
         known_run.write(run, count, 1800.0, place, "film 1")
-        scene = SCENE.format(time="end = 2020-07-01T20:20:00Z", target=FIXED).replace('"run"', f'"{place}"')
+        scene = SCENE.format(time="end = 2020-07-01T20:20:00Z", target=FIXED).replace(
+            '"run"', f'"{place.as_posix()}"'
+        )
         (tmp_path / "scene.toml").write_text(scene)
         shots.append(ShotSource(scene=str(tmp_path / "scene.toml")).shot())
     return shots
