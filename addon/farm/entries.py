@@ -135,7 +135,7 @@ class Log:
         self.path = path
         with writing(path):
             path.parent.mkdir(parents=True, exist_ok=True)
-            self._file = path.open("a", encoding="utf-8")
+            self._file = path.open("a", encoding="utf-8", newline="\n")
 
     def write(self, *lines: Any) -> None:
         """Append lines and flush them to the disk."""

@@ -27,6 +27,9 @@ log.write_text("\\n".join([*calls, json.dumps(sys.argv)]) + "\\n")
 """
 
 
+SHELL = pytest.mark.posix("shell, in which schedulers run tasks")
+
+
 @pytest.fixture
 def asked(tmp_path, monkeypatch):
     """Commands that record their calls: asked(outputs, names...) -> a function that returns the calls."""
@@ -72,6 +75,7 @@ def test_what_was_never_submitted_is_not_cancelled(name, tmp_path):
         known()[name]().cancel(tmp_path)
 
 
+@SHELL
 def test_pbs_has_an_array_for_each_stage_and_holds_the_first(tmp_path, asked):
     calls = asked("{}[].server", "qsub", "qrls")
     folder, command = write("pbs", batch(tmp_path, options=("-A", "the project")))
@@ -86,6 +90,7 @@ def test_pbs_has_an_array_for_each_stage_and_holds_the_first(tmp_path, asked):
     assert (folder / "jobs.txt").read_text().split() == ["1[].server", "2[].server", "3[].server"]
 
 
+@SHELL
 def test_pbs_submits_what_is_missing_and_splits_at_its_limit(tmp_path, asked, monkeypatch):
     calls = asked("{}[].server", "qsub", "qrls")
     monkeypatch.setattr(pbs, "max_array_size", lambda: 2)
@@ -99,6 +104,7 @@ def test_pbs_submits_what_is_missing_and_splits_at_its_limit(tmp_path, asked, mo
     ]
 
 
+@SHELL
 @pytest.mark.parametrize(("engine", "program"), [("pbs", "qsub"), ("slurm", "sbatch")])
 def test_a_submission_that_fails_is_the_last(engine, program, tmp_path, monkeypatch):
     calls = tmp_path / "calls.txt"
@@ -128,6 +134,7 @@ def pbs_script(tmp_path, monkeypatch):
     return start
 
 
+@SHELL
 def test_pbs_tasks_run_the_number_at_their_index(tmp_path, pbs_script):
     for index, number, status, tries in ((1, 5, 75, 3), (2, 6, 1, 1)):
         process, log = pbs_script(0, index)
@@ -136,6 +143,7 @@ def test_pbs_tasks_run_the_number_at_their_index(tmp_path, pbs_script):
         assert log.read_text().splitlines() == [str(command)] * tries
 
 
+@SHELL
 def test_a_pbs_task_that_is_told_to_end_does_not_try_again(pbs_script):
     process, log = pbs_script(60, 1)
     until(lambda: log.exists() and log.read_text().count("\n") == 1, 20)
@@ -145,6 +153,7 @@ def test_a_pbs_task_that_is_told_to_end_does_not_try_again(pbs_script):
     assert log.read_text().count("\n") == 1
 
 
+@SHELL
 def test_flamenco_has_the_tasks_as_settings(tmp_path, asked):
     calls = asked('{{"id": "12-ab"}}', "curl")
     folder, command = write("flamenco", batch(tmp_path, (4, 6, 7), ("http://farm:8080", "-k")))
