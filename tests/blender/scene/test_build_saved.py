@@ -26,6 +26,7 @@ def test_scrubbing_a_saved_scene_moves_its_clock_and_camera(built_file):
     assert (seen[1][1] - seen[0][1]).length > 500.0
 
 
+@pytest.mark.posix("removal of files that are open")
 def test_the_papers_trees_are_there_without_the_run(
     settings, run_folder, scene, plain_looks, tmp_path, monkeypatch
 ):
