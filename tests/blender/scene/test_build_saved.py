@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import bpy
 import numpy as np
+import pytest
 from firetwin.blender import nodes
 from firetwin.run import opening as runs
 from firetwin.scene import build
