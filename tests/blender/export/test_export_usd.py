@@ -177,6 +177,7 @@ def test_a_voxel_is_where_the_smoke_was_written(exported):
     assert "extinction" in (out / "smoke" / "README.txt").read_text()
 
 
+@pytest.mark.posix("definitions of shaders in the USD of Blender's module")
 def test_no_validator_finds_an_error(exported):
     _, _, out, _ = exported
     stage = Usd.Stage.Open(str(out / "scene.usda"))
