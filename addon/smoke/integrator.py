@@ -110,7 +110,7 @@ class Integrator:
         left = self.shot.spin_up - np.concatenate([[0.0], np.cumsum(self.steps)[:-1]])
         cost = np.ones(len(self.steps))
         if len(self.domains) > 1:
-            cells = [np.prod(domain.box.shape) * len(domain.box.levels) for domain in self.domains]
+            cells = [math.prod(domain.box.shape) * len(domain.box.levels) for domain in self.domains]
             each = [_count(dt, self.scale) * cells[1] / cells[0] for dt in self.steps]
             cost += np.where(left <= self.lead + 1e-6, each, 0.0)
         return np.round(np.concatenate([[0.0], np.cumsum(cost)])).astype(np.int64)

@@ -135,7 +135,7 @@ def load_field(path: Path, name: str) -> tuple[tuple[int, int], NDArray[Any]]:
         The file is not complete.
     """
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
             west, south = file["low"]
             return (int(west), int(south)), file[name]
     except _UNREADABLE as error:
@@ -169,7 +169,7 @@ def read(path: Path) -> Fields:
         The file is not complete.
     """
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
             return {name: file[name] for name in file.files}
     except FileNotFoundError:
         raise

@@ -7,6 +7,7 @@ name last. A journal records how many times have reached the disk; these are not
 from __future__ import annotations
 
 import json
+import math
 import os
 import shutil
 import time
@@ -173,7 +174,7 @@ def _open(path: Path, shape: tuple[int, ...], done: int) -> BinaryIO:
     """Open an .npy file of this shape for appending from the time `done`."""
     file = path.open("r+b" if done else "wb")
     np.lib.format.write_array_header_1_0(file, {"descr": "<f4", "fortran_order": False, "shape": shape})
-    file.seek(file.tell() + done * 4 * int(np.prod(shape[1:])))
+    file.seek(file.tell() + done * 4 * math.prod(shape[1:]))
     file.truncate()
     return file
 

@@ -111,7 +111,8 @@ def baked(shot):
     grids = []
     for path in sorted(place.glob("*_000002.vdb")):
         for grid in openvdb.readAll(str(path))[0]:
-            low, high = (np.array(corner) for corner in grid.evalActiveVoxelBoundingBox())
+            corners = grid.evalActiveVoxelBoundingBox()  # the lowest may be the largest number of 32 bits
+            low, high = (np.array(corner, np.int64) for corner in corners)
             values = np.zeros(np.maximum(high - low + 1, 0), np.float32)
             if values.size:
                 grid.copyToArray(values, ijk=tuple(int(v) for v in low))

@@ -26,7 +26,7 @@ def folder(run_folder, tmp_path_factory):
     said = smoke_scene.write(place, run_folder)
     told = next(text for text in said if "no smoke volume yet" in text)
     assert told.startswith("3 frames of scene.blend")
-    assert told.endswith(f"firetwin bake --volumes {place}/scene.toml")
+    assert told.endswith(f"firetwin bake --volumes {place / 'scene.toml'}")
     assert not (place / "cache").exists()
     return place
 
