@@ -9,6 +9,8 @@ import firetwin
 import pytest
 from firetwin.ui import manual, manual_pages, sections, sidebar
 
+pytestmark = pytest.mark.posix("manual here: wheels have none, the zip has")
+
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
