@@ -104,7 +104,10 @@ import child_work, os, signal, threading
 from firetwin.jobs import worker
 
 def progress(*_):  # all processes of the console get it, as from the keyboard
-    threading.Timer(0.5, os.kill, (0, getattr(signal, "CTRL_C_EVENT", signal.SIGINT))).start()
+    for seconds in (0.5, 30.0):  # Python loses a signal that comes just before a read
+        again = threading.Timer(seconds, os.kill, (0, getattr(signal, "CTRL_C_EVENT", signal.SIGINT)))
+        again.daemon = True
+        again.start()
 
 worker.run(child_work.report_and_hang, progress, blender=False)
 """
