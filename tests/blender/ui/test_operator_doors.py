@@ -1,5 +1,7 @@
 """All operators that write files for their user follow the rule of commands (see `test_doors`)."""
 
+import sys
+
 import doors
 import operator_table
 import pytest
@@ -18,7 +20,7 @@ EXPECTED = {
     "others beside it": {"stays"},
     "link": {"refused", "kept as .blend1"},
     "write-protected": {"refused"},
-    "full disk": {"refused"},
+    **({"full disk": {"refused"}} if sys.platform == "linux" else {}),  # a limit of the size of files
 }
 """Outcomes; the writers of all doors are killed in `test_doors`, as Blender does not survive a fork."""
 CASES = [(name, path) for name, door in DOORS.items() for path in door.outputs]
