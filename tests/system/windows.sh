@@ -45,7 +45,7 @@ make_python() {
   mkdir -p "$python"
   cp -r "$source"/{python.exe,lib} "$source"/*.dll "$source"/lib/vcruntime140*.dll "$python/"
   .venv/bin/pip install --quiet --disable-pip-version-check --target "$python/lib/site-packages" --platform win_amd64 \
-    --python-version "$version" --only-binary=:all: --requirement <(requirements) "bpy==${blender[$version]}"
+    --python-version "$version" --only-binary=:all: --ignore-requires-python --requirement <(requirements) "bpy==${blender[$version]}"
   # Wine 8 lacks this library, of which packages in Rust want random numbers.
   x86_64-w64-mingw32-gcc-posix -shared -x c - -o "$python/bcryptprimitives.dll" -ladvapi32 <<'END'
 int SystemFunction036(void *, unsigned);
