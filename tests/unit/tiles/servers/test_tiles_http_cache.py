@@ -100,7 +100,8 @@ def test_two_processes_share_a_cache(tmp_path):
     assert [each.exitcode for each in workers] == [0, 0]
     cache = HttpCache(tmp_path)
     assert all(cache.find(f"{URL}{number}", NOW) for number in range(7))
-    assert len(list(tmp_path.glob("??/*"))) == 7
+    left = len(list(tmp_path.glob("??/*")))
+    assert left == 7 or (sys.platform == "win32" and left > 7)  # a file that was read cannot be removed
 
 
 def test_a_stale_answer_is_confirmed_without_its_body(tmp_path):
