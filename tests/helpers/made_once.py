@@ -8,11 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
-try:
-    import fcntl
-except ImportError:  # Windows: one process runs the tests
-    fcntl = None
+from firetwin import unfinished
 
 
 def made_once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], object]) -> Path:
@@ -21,9 +17,9 @@ def made_once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path],
     if "PYTEST_XDIST_WORKER" in os.environ:
         base = base.parent
     folder, marker = base / name, base / f"{name}.made"
-    with (base / f"{name}.lock").open("w") as lock:
-        if fcntl:
-            fcntl.flock(lock, fcntl.LOCK_EX)
+    lock = base / f"{name}.lock"
+    lock.mkdir(exist_ok=True)
+    with unfinished.locked(lock, wait=True):
         if not marker.exists():
             shutil.rmtree(folder, ignore_errors=True)  # of an attempt that failed
             folder.mkdir()

@@ -2,6 +2,7 @@
 
 import shutil
 from functools import partial
+from pathlib import Path
 from unittest.mock import MagicMock
 
 import bpy
@@ -219,7 +220,7 @@ def test_a_render_that_cannot_have_its_smoke_says_why(opened, folder, capfd):
     smoke_volumes.write_before_render(opened.scene)
     said = capfd.readouterr().err.splitlines()[-1]
     assert said.startswith("firetwin: frame 1 is rendered without smoke: ")
-    assert "gone" in said
+    assert str(Path("/gone")) in said
     (message,) = job.Job.last.messages
     assert (message.level, f"firetwin: {message.text}") == ("ERROR", said)
     assert instances() == 1

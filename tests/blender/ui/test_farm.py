@@ -14,6 +14,8 @@ from firetwin.farm import plan, submission
 from firetwin.jobs.worker import StoppedError
 from firetwin.ui import folder_watch, job, working
 
+SHELL = pytest.mark.posix("shell, in which schedulers run tasks")
+
 
 @pytest.fixture(scope="module")
 def blend(panel_blend, tmp_path_factory):
@@ -52,7 +54,7 @@ def made(panel):
     return json.loads((farm._output_folder(panel) / "farm/job.json").read_text())
 
 
-@pytest.mark.posix("shell, in which schedulers run tasks")
+@SHELL
 def test_a_job_of_the_panel_is_that_of_the_command_line(panel, blend, tmp_path, capsys):
     panel.farm_chunk, panel.render.chunk = 2, 1
     assert bpy.ops.firetwin.farm_write() == {"FINISHED"}
@@ -98,7 +100,7 @@ def test_a_scene_file_of_others_is_not_the_jobs(panel, blend):
     assert path.read_bytes() == before + b"seed = 7\n"
 
 
-@pytest.mark.posix("shell, in which schedulers run tasks")
+@SHELL
 def test_what_is_submitted_is_followed_resumed_and_cancelled(panel, tmp_path, slurm):
     panel.farm_options, panel.render.chunk, panel.farm_chunk = "--partition=gpu --comment='two words'", 1, 1
     assert bpy.ops.firetwin.farm_submit() == {"FINISHED"}
@@ -134,7 +136,7 @@ def test_a_folder_without_a_job_is_told(panel, name):
         getattr(bpy.ops.firetwin, name)()
 
 
-@pytest.mark.posix("shell, in which schedulers run tasks")
+@SHELL
 def test_what_fails_is_a_report(panel, monkeypatch, tmp_path):
     panel.farm_options = "--comment='open"
     with pytest.raises(RuntimeError, match="Options: no closing quotation"):
@@ -158,7 +160,7 @@ def test_a_file_that_is_not_saved_has_no_job(run_folder, panel):
             getattr(bpy.ops.firetwin, cls.bl_idname.partition(".")[2])()
 
 
-@pytest.mark.posix("shell, in which schedulers run tasks")
+@SHELL
 def test_a_submission_is_stopped_and_its_command_has_ended(panel, tmp_path, monkeypatch):
     script = (
         f"trap 'echo ended >{tmp_path}/ended; exit 1' TERM; echo begun >{tmp_path}/begun; sleep 60 & wait"

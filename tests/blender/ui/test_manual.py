@@ -9,7 +9,7 @@ import firetwin
 import pytest
 from firetwin.ui import manual, manual_pages, sections, sidebar
 
-pytestmark = pytest.mark.posix("manual here: wheels have none, the zip has")
+pytestmark = pytest.mark.posix("manual in its wheel; the zip has one")
 
 
 @pytest.fixture(scope="module")

@@ -159,7 +159,7 @@ def call(name, options, folder):
     return getattr(bpy.ops.firetwin, name)("EXEC_DEFAULT", True, **filled)
 
 
-@pytest.mark.posix("manual here: wheels have none, the zip has")
+@pytest.mark.posix("manual in its wheel; the zip has one")
 @pytest.mark.slow  # every operator, undone and redone
 def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path, monkeypatch):
     """Undo reverts the changes of an operator, and redo restores them; other operators change nothing."""

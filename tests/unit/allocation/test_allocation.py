@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import small_stations
 from fires import LATITUDE, LONGITUDE, axes, round_fire, write_run
-from firetwin import cli
+from firetwin import cli, extras
 from firetwin.allocation import (
     LIMITS,
     command,
@@ -365,7 +365,9 @@ def test_a_run_without_fire_has_nothing_to_allocate_to(make_run):
 
 def test_without_scipy_it_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "scipy.optimize", None)
-    with pytest.raises(Error, match=r"needs the Python package scipy.*pip install '?firetwin\[resources\]"):
+    with pytest.raises(
+        Error, match=f"needs the Python package scipy.*{re.escape(extras.install('resources'))}"
+    ):
         containment.solve(simple())
 
 

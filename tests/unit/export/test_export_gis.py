@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import rasterio
 import shapely
-from firetwin import cli
+from firetwin import cli, extras
 from firetwin.export import gis, gis_rasters
 from firetwin.export.gis_rasters import Raster
 from firetwin.export.request import ExportRequest
@@ -215,5 +215,5 @@ def test_without_rasterio_the_command_names_it(request_, tmp_path, capsys, monke
     monkeypatch.setitem(sys.modules, "rasterio", None)
     out = tmp_path / "out"
     assert cli.main(["export", str(tmp_path / "scene.toml"), "--to", "gis", "--out", str(out)]) == 1
-    assert "firetwin[raster]" in capsys.readouterr().err
+    assert f"install it with: {extras.install('raster')}" in capsys.readouterr().err
     assert not out.exists()

@@ -437,7 +437,7 @@ def test_status_is_read_from_files(film):
     assert status.gather(out).waiting == [1]
 
 
-@pytest.mark.posix("signals that ask for a process")
+@pytest.mark.posix("signals that ask whether a process runs")
 def test_a_killed_task_is_shown_after_45_seconds(film, monkeypatch):
     out, made_with = film
     killed = subprocess.Popen([sys.executable, "-c", ""])

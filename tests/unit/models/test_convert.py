@@ -2,6 +2,7 @@
 
 import io
 import pickle
+import re
 import sys
 import threading
 import time
@@ -15,7 +16,7 @@ import damage
 import model_files as made
 import numpy as np
 import pytest
-from firetwin import cli
+from firetwin import cli, extras
 from firetwin.errors import Error, InputError, UsageError
 from firetwin.jobs import convert, worker
 from firetwin.run import opening as runs
@@ -238,7 +239,7 @@ def test_a_missing_package_is_one_line(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "netCDF4", None)
     with pytest.raises(
         Error,
-        match=r"needs the Python package netCDF4; install it with: .*-m pip install '?firetwin\[models\]",
+        match=re.escape(f"needs the Python package netCDF4; install it with: {extras.install('models')}"),
     ):
         in_process(paths, tmp_path / "out")
 

@@ -4,6 +4,7 @@ import base64
 import importlib.util
 import io
 import json
+import re
 import subprocess
 import sys
 from datetime import UTC, datetime, timedelta
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 import whole_run
 from fires import LATITUDE, LONGITUDE, axes, circle, degrees, geojson, round_fire, square, write_run
+from firetwin import extras
 from firetwin.errors import UsageError
 from firetwin.html_text import quote
 from firetwin.run import observations, readers
@@ -306,7 +308,7 @@ def test_the_command_as_a_table_and_as_json(round_run, tmp_path):
 
 def test_without_shapely_the_command_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "shapely", None)
-    with pytest.raises(UsageError, match=r"pip install '?firetwin\[score\]"):
+    with pytest.raises(UsageError, match=re.escape(extras.install("score"))):
         shapes.needed()
 
 
