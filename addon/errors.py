@@ -165,8 +165,8 @@ def read_fault(error: Exception, kind: str = "") -> str:
     """Describe why a file of a `kind`, such as "GeoTIFF", cannot be read, and the remedy."""
     text = getattr(error, "strerror", None) or str(error.__cause__ or error)
     why = " ".join(text.split())[:_LONGEST].rstrip(".") or type(error).__name__
-    if isinstance(error, PermissionError) and Path(str(error.filename)).is_dir():  # on Windows
-        error = IsADirectoryError()
+    if isinstance(error, PermissionError) and error.filename and Path(error.filename).is_dir():
+        error = IsADirectoryError()  # which Windows does not tell from a lack of permission
     for fault, text in _FAULTS.items():
         if isinstance(error, fault):
             return text

@@ -74,7 +74,7 @@ def _files(folder: Path, facts: about.About, samples: Sequence[Truth]) -> Iterat
         text = f"{len(missing):,} of {facts.count:,} samples are missing ({shown})"
         yield Finding("files", f"{folder}: {text}; resume it: firetwin dataset PLAN.toml --out {folder}")
     for sample in samples:
-        meta = truth.path(folder, sample.index).relative_to(folder).as_posix()
+        meta = truth.name(sample.index)
         for path in sample.files.values():
             file = folder / path
             if not file.is_file() or not file.stat().st_size:
@@ -110,7 +110,7 @@ def _pictures(folder: Path, sample: Truth) -> tuple[list[Finding], twins.Fingerp
     except InputError as error:
         return [Finding("files", f"{path}: {error.reason}")], None
     except (OSError, SyntaxError, ValueError):
-        meta = truth.path(folder, sample.index).relative_to(folder).as_posix()
+        meta = truth.name(sample.index)
         remedy = RESUME.format(path=meta, folder=folder)
         return [Finding("files", f"{path}: is damaged or half-written; {remedy}")], None
     return [], twins.Fingerprint(sample.index, sample.split or common.UNSPLIT, grey)

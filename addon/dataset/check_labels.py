@@ -21,7 +21,7 @@ _ROUNDING = 1.0e-4  # of opacity in 16 bits
 def check(folder: Path, sample: Truth) -> Iterator[Finding]:
     """Compare the boxes, pixel counts and opacity of a sample with its masks."""
     for fault in _faults(folder, sample):
-        path = truth.path(folder, sample.index).relative_to(folder).as_posix()
+        path = truth.name(sample.index)
         yield Finding(KIND, f"{path}: {fault}; {RESUME.format(path=path, folder=folder)}")
 
 

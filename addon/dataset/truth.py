@@ -234,9 +234,14 @@ def stem(index: int) -> str:
     return f"{index:06d}"
 
 
+def name(index: int) -> str:
+    """Return the path of the metadata of a sample in its data set, with / on every system."""
+    return f"{FOLDER}/{stem(index)}.json"
+
+
 def path(folder: Path, index: int) -> Path:
     """Return the path of the metadata of a sample."""
-    return folder / FOLDER / f"{stem(index)}.json"
+    return folder / name(index)
 
 
 def write(folder: Path, truth: Truth) -> Path:

@@ -281,7 +281,7 @@ def _converse(
     """Send the work, pass on progress and messages, and return the last answer; `_NONE` without one."""
     assert child.stdin is not None
     assert child.stdout is not None
-    call = pickle.dumps(pickle.dumps(work))  # the child reads bytes, and imports what they need later
+    call = pickle.dumps(pickle.dumps(work))  # the child reads bytes, and loads modules of the work later
     try:
         child.stdin.write(call)
         child.stdin.flush()
@@ -444,14 +444,18 @@ def _as_firetwin_error(error: Exception) -> Error:
 def _read_calls(source: IO[bytes], calls: queue.SimpleQueue[bytes]) -> None:
     """Read calls of the parent; end this process when the parent closes the pipe or ends.
 
-    Blender as a module may crash while the interpreter shuts down, so nothing is shut down, but the folder of
-    temporary files that Blender made is removed.
+    Blender as a module may crash while the interpreter shuts down, so nothing is shut down.
     """
     with contextlib.suppress(EOFError, pickle.UnpicklingError):
         while True:
             calls.put(pickle.load(source))
+    _remove_temporary_folder()
+    os._exit(0)
+
+
+def _remove_temporary_folder() -> None:
+    """Remove the folder of Blender's temporary files, which Blender removes when it shuts down."""
     with contextlib.suppress(KeyError, AttributeError):  # without Blender, or while it is being loaded
         folder = Path(sys.modules["bpy"].app.tempdir)
         if folder.name.startswith("blender_"):  # else the folder that all programs share
             shutil.rmtree(folder, ignore_errors=True)
-    os._exit(0)

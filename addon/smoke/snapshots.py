@@ -5,6 +5,8 @@ from __future__ import annotations
 import io
 import zipfile
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -135,7 +137,7 @@ def load_field(path: Path, name: str) -> tuple[tuple[int, int], NDArray[Any]]:
         The file is not complete.
     """
     try:
-        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
+        with _opened(path) as file:
             west, south = file["low"]
             return (int(west), int(south)), file[name]
     except _UNREADABLE as error:
@@ -169,12 +171,19 @@ def read(path: Path) -> Fields:
         The file is not complete.
     """
     try:
-        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
+        with _opened(path) as file:
             return {name: file[name] for name in file.files}
     except FileNotFoundError:
         raise
     except _UNREADABLE as error:
         raise BrokenError(path) from error
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[Any]:
+    """Open arrays of a file. `np.load` leaves a broken file open, which Windows then does not remove."""
+    with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
+        yield file
 
 
 def _header(file: zipfile.ZipFile, name: str) -> tuple[int, ...]:
